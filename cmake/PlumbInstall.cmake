@@ -2,7 +2,7 @@
 #   find_package(plumb CONFIG)                  -> plumb::plumb (8 sensors), plumb::plumb_4, _8, _16, _24;
 #                                                  plumb::c (the C functions, 8 sensors), plumb::c_4, _8, _16, _24
 #   find_package(plumb CONFIG COMPONENTS paper) -> plumb::paper, the paper's algorithm to compare with (24 sensors)
-#   find_package(plumb CONFIG COMPONENTS host)  -> plumb::paper, scenario, study, commission, io, logs, coefficients, noise, findings, session, campaign,
+#   find_package(plumb CONFIG COMPONENTS host)  -> plumb::paper, scenario, study, commission, io, logs, coefficients, geomagnetic, survey, noise, findings, session, campaign,
 #                                                  verification, render as well
 #   find_package(plumb CONFIG COMPONENTS testing) -> plumb::testing, with RapidCheck and GoogleTest
 #   pkg-config plumb, plumb-4, ...; plumb-c, plumb-c-4, ...; plumb-paper   -> the same libraries without CMake
@@ -26,7 +26,7 @@ if(TARGET plumb_paper)
 endif()
 
 set(PLUMB_INSTALLED_HOST FALSE)
-foreach(name IN ITEMS scenario study commission io logs coefficients review noise findings session campaign verification render)
+foreach(name IN ITEMS scenario study commission io logs coefficients geomagnetic survey review noise findings session campaign verification render)
   if(TARGET plumb_${name})
     install(TARGETS plumb_${name} EXPORT plumbHostTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     list(APPEND rooms ${name})

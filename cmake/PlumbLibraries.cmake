@@ -224,6 +224,24 @@ if(TARGET plumb_io AND noise_sources)
   plumb_batch(plumb_noise)
 endif()
 
+# The Earth's magnetic field at a place and a date.
+plumb_sources(geomagnetic_sources geomagnetic)
+if(TARGET plumb_io AND geomagnetic_sources)
+  add_library(plumb_geomagnetic STATIC ${geomagnetic_sources})
+  plumb_library(plumb_geomagnetic geomagnetic)
+  target_link_libraries(plumb_geomagnetic PUBLIC plumb_io plumb_24 PRIVATE fmt::fmt)
+  plumb_batch(plumb_geomagnetic)
+endif()
+
+# Inclination, azimuth and path of a tool with accelerometers and magnetometers, checked against gravity and field.
+plumb_sources(survey_sources survey)
+if(TARGET plumb_geomagnetic AND survey_sources)
+  add_library(plumb_survey STATIC ${survey_sources})
+  plumb_library(plumb_survey survey)
+  target_link_libraries(plumb_survey PUBLIC plumb_geomagnetic plumb_24 PRIVATE fmt::fmt "$<BUILD_INTERFACE:Boost::headers>")
+  plumb_batch(plumb_survey)
+endif()
+
 # Coefficients that others have found, and calibrations in the forms of others.
 plumb_sources(coefficients_sources coefficients)
 if(TARGET plumb_io AND coefficients_sources)
@@ -303,7 +321,7 @@ if(TARGET plumb_session AND TARGET plumb_verification AND render_sources)
   plumb_find_package(fmt DEBIAN libfmt-dev TARGET fmt::fmt)
   add_library(plumb_render STATIC ${render_sources})
   plumb_library(plumb_render render)
-  target_link_libraries(plumb_render PUBLIC plumb_session plumb_coefficients plumb_findings plumb_noise plumb_review plumb_verification plumb_study plumb_io fmt::fmt
+  target_link_libraries(plumb_render PUBLIC plumb_session plumb_coefficients plumb_findings plumb_noise plumb_review plumb_survey plumb_verification plumb_study plumb_io fmt::fmt
     PRIVATE "$<BUILD_INTERFACE:plumb_mustache>" "$<BUILD_INTERFACE:Boost::headers>")
   plumb_batch(plumb_render)
   plumb_optimise_less(plumb_render)

@@ -171,7 +171,7 @@ if(PLUMB_BUILD_HOST)
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* MotionCommand.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
-    LIBRARIES plumb_testing plumb_render plumb_findings plumb_review plumb_logs plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
+    LIBRARIES plumb_testing plumb_render plumb_findings plumb_review plumb_survey plumb_logs plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
   if(TARGET plumb_host_tests)  # flights with a monitor of motion on board, as plumb_motion_rates plays them
     target_sources(plumb_host_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/motion/flight_case.cpp")
     target_include_directories(plumb_host_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/motion")
@@ -192,6 +192,14 @@ endif()
 if(TARGET plumb_noise)
   plumb_test_executable(plumb_noise_tests LABEL host ROOMS noise LIBRARIES plumb_noise plumb_scenario plumb_io plumb_24
     COMPUTING noise/coverage LONGER NoiseCoverage.*)
+endif()
+
+if(TARGET plumb_geomagnetic)
+  plumb_test_executable(plumb_geomagnetic_tests LABEL host ROOMS geomagnetic LIBRARIES plumb_geomagnetic plumb_io plumb_24)
+endif()
+
+if(TARGET plumb_survey)
+  plumb_test_executable(plumb_survey_tests LABEL host ROOMS survey LIBRARIES plumb_survey plumb_24)
 endif()
 
 # Another one: coefficients need files and nothing above them.

@@ -86,8 +86,9 @@ int run(int argc, char** argv) {
   const Options tool = line.options();
   // In the order in which a newcomer meets them.
   std::vector<Command> commands;
-  for (const auto add : {add_demo, add_review, add_import, add_geometry, add_calibrate, add_monitor, add_simulate,
-                         add_inject, add_noise, add_convert, add_campaign, add_verify, add_model, add_upgrade})
+  for (const auto add :
+       {add_demo, add_review, add_import, add_geometry, add_calibrate, add_monitor, add_simulate, add_inject, add_noise,
+        add_survey, add_convert, add_campaign, add_verify, add_model, add_upgrade})
     commands.push_back(add(tool));
   tool.footer(kNotes + exit_codes_help());
   if (argc < 2) {

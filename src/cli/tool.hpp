@@ -51,6 +51,7 @@ Command add_simulate(const Options& tool);
 Command add_inject(const Options& tool);
 Command add_convert(const Options& tool);
 Command add_noise(const Options& tool);
+Command add_survey(const Options& tool);
 Command add_upgrade(const Options& tool);
 Command add_model(const Options& tool);
 Command add_verify(const Options& tool);

@@ -1,0 +1,193 @@
+// plumb survey: stations of accelerometers and magnetometers, judged, and the path of the hole.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "plumb/io/output_file.hpp"
+#include "plumb/render/survey_report.hpp"
+#include "plumb/survey/station_file.hpp"
+#include "plumb/survey/survey_csv.hpp"
+#include "survey_reference.hpp"
+#include "tool.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+namespace {
+
+struct SurveyOptions {
+  std::string stations;
+  ReferenceOptions reference;
+  std::string convergence;
+  std::optional<survey::North> north;
+  std::string noise_gravity = "0.1 mg", noise_field = "20 nT";
+  survey::LimitKind limits = survey::LimitKind::from_uncertainty;
+  double false_alarm = 0.0027;
+  double risk = 1e-4;
+  bool axial = false;
+  std::string csv;
+  bool json = false;
+  io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
+};
+
+constexpr const char* kSurveyAbout =
+    "Inclination, toolface and azimuth of survey stations from accelerometers and magnetometers, each with its\n"
+    "protection level; checks of gravity, field and dip; the path of the hole by minimum curvature.";
+constexpr const char* kSurveyNotes =
+    "Examples:\n"
+    "  plumb survey run4.csv --place \"60.40, 2.10\" --date 2026-03-31\n"
+    "  plumb survey run4.csv --place \"60.40, 2.10\" --date 2026-03-31 --convergence \"-1.2 deg\" --axial --csv "
+    "out.csv\n"
+    "  plumb survey run4.csv --gravity \"9.819 m/s^2\" --field \"50812 nT\" --dip \"72.4 deg\" --declination \"-0.6 "
+    "deg\"\n\n"
+    "Columns of STATIONS.csv: md_m, then gx_mps2 gy_mps2 gz_mps2 (or _g, _mg; ax_ for specific force) and bx_nT by_nT\n"
+    "bz_nT (or _uT, _mG, _G). z points down the hole, toolface counts from y. docs/survey.md has formulas, sources "
+    "and\n"
+    "limits, and what is refused.\n\n";
+
+io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& options) {
+  survey::SurveySettings out;
+  out.station.checks.limits = options.limits;
+  out.station.checks.false_alarm = options.false_alarm;
+  out.integrity_risk = options.risk;
+  out.north = options.north;
+  out.correct_axial = options.axial;
+  if (!options.convergence.empty()) {
+    const io::FileExpected<double> angle = quantity_option(io::Quantity::angle, "--convergence", options.convergence);
+    if (!angle) return tl::unexpected<io::FileError>(angle.error());
+    out.station.convergence = {true, *angle};
+  }
+  return out;
+}
+
+/// What is asked for, and what is missing for it.
+std::optional<io::FileError> missing_for_north(const SurveyOptions& options, const survey::Reference& reference) {
+  if (!options.north || *options.north == survey::North::magnetic) return std::nullopt;
+  if (!reference.field.declination_known)
+    return io::FileError{"--north",
+                         0,
+                         "",
+                         "there is no declination to turn magnetic azimuths by",
+                         "state --declination, or --place and --date",
+                         io::ExitCode::usage};
+  if (*options.north == survey::North::grid && options.convergence.empty())
+    return io::FileError{
+        "--north",          0, "", "there is no convergence to turn true azimuths by", "state --convergence",
+        io::ExitCode::usage};
+  return std::nullopt;
+}
+
+/// What is said where a result was written, yet is not all that was asked for.
+io::ExitCode verdict(const SurveyOptions& options, const survey::Survey& found) {
+  if (found.axial && !*found.axial)
+    return report({options.stations, 0, "",
+                   "the axial interference could not be estimated: " + found.axial->error().text(),
+                   "leave --axial out, or add stations at other attitudes", io::ExitCode::not_accepted});
+  for (const survey::SurveyStation& s : found.stations) {
+    if (s.status != survey::StationStatus::rejected) return io::ExitCode::done;
+  }
+  return report({options.stations, 0, "", "no station passed the check of gravity",
+                 "check units and signs of the columns, the noise that is stated, and the reference of gravity",
+                 io::ExitCode::nothing_judged});
+}
+
+io::ExitCode run_survey_command(const SurveyOptions& options) {
+  if (const auto clash = overwritten({{"--csv", options.csv}}, {{"STATIONS", options.stations},
+                                                                {"--coefficients", options.reference.coefficients}}))
+    return report(*clash);
+  io::FileExpected<survey::SurveySettings> settings = survey_settings(options);
+  if (!settings) return report(settings.error());
+  const auto noise_gravity = quantity_option(io::Quantity::acceleration, "--noise-gravity", options.noise_gravity);
+  if (!noise_gravity) return report(noise_gravity.error());
+  const auto noise_field = field_option("--noise-field", options.noise_field);
+  if (!noise_field) return report(noise_field.error());
+  io::FileExpected<survey::StationFile> file = survey::read_stations(options.stations, options.on_bad_row);
+  if (!file) return report(file.error());
+  for (survey::Measurement& m : file->stations) m.random = survey::independent_covariance(*noise_gravity, *noise_field);
+  const auto stations = referenced(file->stations, options.reference);
+  if (!stations) return report(stations.error());
+  if (const auto missing = missing_for_north(options, stations->front().reference)) return report(*missing);
+
+  const render::SurveyReport found{options.stations,
+                                   file->gravity_unit,
+                                   file->field_unit,
+                                   file->rows_left_out,
+                                   *settings,
+                                   stations->front().reference,
+                                   stations->back().reference,
+                                   *noise_gravity,
+                                   *noise_field,
+                                   survey::run_survey(*stations, *settings)};
+  if (found.survey.wiring.swapped)
+    return report({options.stations, 0, "header", found.survey.wiring.text(),
+                   "rename the columns of that triad; the dip does not say which of the two it is",
+                   io::ExitCode::invalid_input});
+  if (!options.csv.empty()) {
+    if (const auto written = io::write_file(options.csv, survey::survey_csv(found.survey)); !written)
+      return report(written.error());
+  }
+  print(options.json ? render::survey_json(found).dump(2) + "\n" : render::survey_text(found));
+  return verdict(options, found.survey);
+}
+
+void add_checks(const Options& command, SurveyOptions& options) {
+  command
+      .add_option("--noise-gravity", options.noise_gravity,
+                  "noise of a station's accelerometer means, 1 sigma (default \"0.1 mg\")")
+      .type_name("\"0.1 mg\"");
+  command
+      .add_option("--noise-field", options.noise_field,
+                  "noise of a station's magnetometer means, 1 sigma (default \"20 nT\")")
+      .type_name("\"20 nT\"");
+  command
+      .add_option("--limits", options.limits,
+                  {{"uncertainty", survey::LimitKind::from_uncertainty}, {"fixed", survey::LimitKind::fixed}},
+                  "uncertainty: sigmas of tool and reference (default); fixed: 2.5 mg, 300 nT, 0.25 deg")
+      .type_name("uncertainty|fixed");
+  command.add_option("--false-alarm", options.false_alarm, "chance that a good station fails a check (default 0.0027)")
+      .range(1e-9, 0.5)
+      .type_name("P");
+  command.add_option("--risk", options.risk, "chance that an angle is beyond its protection level (default 1e-4)")
+      .range(1e-12, 0.5)
+      .type_name("P");
+}
+
+}  // namespace
+
+Command add_survey(const Options& tool) {
+  auto options = std::make_shared<SurveyOptions>();
+  const Options command =
+      tool.add_command("survey", "azimuth and path of a hole, from accelerometers and magnetometers");
+  command.add_option("STATIONS", options->stations, "one row a station, CSV with a header row; `-` = standard input")
+      .required()
+      .type_name("STATIONS.csv|-");
+  add_reference_options(command, options->reference);
+  command.add_option("--convergence", options->convergence, "meridian convergence, true to grid north, east positive")
+      .type_name("\"1.2 deg\"");
+  const auto north = [options](const std::string& text) {
+    for (const survey::North one : {survey::North::magnetic, survey::North::true_north, survey::North::grid}) {
+      if (text == to_string(one)) {
+        options->north = one;
+        return std::string();
+      }
+    }
+    return std::string("must be magnetic, true or grid");
+  };
+  command
+      .add_option("--north", north, "north of the path; by default grid with --convergence, else true, else magnetic")
+      .type_name("magnetic|true|grid");
+  add_checks(command, *options);
+  command.add_flag("--axial", options->axial,
+                   "estimate the axial interference of the drill string from all stations, and take it off");
+  command.add_option("--csv", options->csv, "write the survey as a table").type_name("OUT.csv");
+  command.add_flag("--json", options->json, "JSON instead of text, for machines");
+  add_bad_row_option(command, options->on_bad_row);
+  command.footer(kSurveyNotes + exit_codes_help());
+  return {command, kSurveyAbout, [options] { return run_survey_command(*options); }};
+}
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,198 @@
+// plumb survey: from stations in a CSV to a checked survey.
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tool_runner.hpp"
+
+namespace survey_command_test {
+namespace {
+
+using namespace plumb_test;
+
+/// A directory of its own, with nothing in it.
+class Desk : public Directory {
+ public:
+  void put(const char* name, const std::string& text) const { write_text(*this / name, text); }
+  std::string text(const char* name) const { return read_text(*this / name); }
+};
+
+constexpr double kRad = 3.14159265358979323846 / 180.0;
+constexpr double kGravity_mps2 = 9.81912;
+constexpr double kField_nt = 51000.0;
+constexpr double kDip_deg = 73.0;
+
+/// A hole from vertical to 80 degrees on 120 degrees magnetic, the tool turned at every station.
+struct Hole {
+  double interference_nt = 0.0;
+  bool exchanged = false;
+  double unit_nt = 1.0;
+  std::string header = "md_m,gx_mps2,gy_mps2,gz_mps2,bx_nT,by_nT,bz_nT\n";
+
+  std::string csv() const {
+    std::string out = header;
+    for (int k = 0; k < 21; ++k) {
+      const double i = 4.0 * k * kRad, a = 120.0 * kRad, t = 50.0 * k * kRad;
+      const double bn = kField_nt * std::cos(kDip_deg * kRad), bd = kField_nt * std::sin(kDip_deg * kRad);
+      const double high = bn * std::cos(i) * std::cos(a) - bd * std::sin(i), right = bn * std::sin(a);
+      double b[3] = {high * std::sin(t) + right * std::cos(t), high * std::cos(t) - right * std::sin(t),
+                     bn * std::sin(i) * std::cos(a) + bd * std::cos(i) + interference_nt};
+      if (exchanged) std::swap(b[0], b[1]);
+      char line[200];
+      std::snprintf(line, sizeof line, "%.1f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f\n", 1500.0 + 30.0 * k,
+                    -kGravity_mps2 * std::sin(i) * std::sin(t), -kGravity_mps2 * std::sin(i) * std::cos(t),
+                    kGravity_mps2 * std::cos(i), b[0] / unit_nt, b[1] / unit_nt, b[2] / unit_nt);
+      out += line;
+    }
+    return out;
+  }
+};
+
+std::vector<std::string> stated(std::vector<std::string> more = {}) {
+  std::vector<std::string> out{"survey",   "run.csv", "--gravity", "9.81912 m/s^2", "--field",
+                               "51000 nT", "--dip",   "73 deg",    "--declination", "-2.5 deg"};
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+nlohmann::json survey_json_of(const Outcome& outcome) { return nlohmann::json::parse(outcome.out, nullptr, false); }
+
+TEST(SurveyCommand, PrintsStationsTestsAndThePath) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const Outcome outcome = run(where, stated());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(
+      outcome.out,
+      {"run.csv: 21 stations, accelerometers in m/s^2, magnetometers in nT",
+       "field 51000 nT (130 nT), dip 73.00 deg (0.20 deg); stated", "Declination: -2.50 deg from true north",
+       "azimuths from true north", "1500.00", "accepted (V)", "2100.00   80.00  117.50", "accepted", "gravity passed",
+       "field   passed", "dip     passed", "Path of 21 stations, minimum curvature from true north"}));
+}
+
+TEST(SurveyCommand, WritesTheTableAndJson) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const Outcome outcome = run(where, stated({"--convergence", "1.5 deg", "--csv", "out.csv", "--json"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json found = survey_json_of(outcome);
+  ASSERT_FALSE(found.is_discarded());
+  EXPECT_EQ(found["north"], "grid");
+  const nlohmann::json last = found["stations"][20];
+  EXPECT_NEAR(last["azimuth_magnetic"]["deg"].get<double>(), 120.0, 1e-3);
+  EXPECT_NEAR(last["azimuth_true"]["deg"].get<double>(), 117.5, 1e-3);
+  EXPECT_NEAR(last["azimuth_grid"]["deg"].get<double>(), 116.0, 1e-3);
+  EXPECT_GT(last["azimuth_grid"]["protection_level_deg"].get<double>(),
+            3.0 * last["azimuth_grid"]["sigma_deg"].get<double>());
+  EXPECT_TRUE(found["stations"][0]["azimuth_true"]["deg"].is_null());
+  EXPECT_NE(found["stations"][0]["azimuth_true"]["why"].get<std::string>().find("of vertical"), std::string::npos);
+  EXPECT_EQ(found["path"].size(), 21U);
+  EXPECT_TRUE(says(where.text("out.csv"), {"MD_m,Inc_deg,AziMag_deg,AziTrue_deg,AziGrid_deg", "\n1500.00,0.00,,,",
+                                           "\n2100.00,80.00,120.00,117.50,116.00", ",grid\n"}));
+}
+
+TEST(SurveyCommand, TakesGravityAndFieldFromPlaceAndDate) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const Outcome outcome =
+      run(where, {"survey", "run.csv", "--place", "60.4, 2.1", "--height", "25 m", "--date", "2026-03-31", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json found = survey_json_of(outcome);
+  EXPECT_EQ(found["field_source"], "WMM-2025, ISCWSA MWD rev. 5, standard resolution");
+  const nlohmann::json first = found["stations"][0];
+  EXPECT_NEAR(first["field_nt"]["reference"].get<double>(), 51100.0, 400.0);
+  EXPECT_NEAR(first["gravity_mps2"]["reference"].get<double>(), 9.8205, 1e-3);
+  // Deeper by 20 stations: both grow.
+  EXPECT_GT(found["stations"][20]["field_nt"]["reference"].get<double>(),
+            first["field_nt"]["reference"].get<double>() + 5.0);
+  EXPECT_GT(found["stations"][20]["gravity_mps2"]["reference"].get<double>(),
+            first["gravity_mps2"]["reference"].get<double>());
+  const Outcome wmm =
+      run(where, {"survey", "run.csv", "--place", "60.4, 2.1", "--date", "2026-03-31", "--reference-errors", "wmm"});
+  EXPECT_TRUE(says(wmm.out, {"(138 nT)", "WMM-2025, WMM2025 error model"}));
+}
+
+TEST(SurveyCommand, EstimatesInterferenceOrSaysWhyNot) {
+  const Desk where;
+  Hole hole;
+  hole.interference_nt = 400.0;
+  where.put("run.csv", hole.csv());
+  const Outcome found = run(where, stated({"--axial"}));
+  EXPECT_EQ(found.code, 0) << found.err;
+  EXPECT_TRUE(says(found.out, {"Axial interference: ", "nT, 1 sigma", "taken off every station"}));
+  // One station after another at the same attitude.
+  const std::string whole = hole.csv();
+  const std::string line = whole.substr(whole.rfind("\n2100.0") + 1);
+  std::string tangent = hole.header;
+  for (int k = 0; k < 12; ++k) tangent += std::to_string(2100 + 30 * k) + line.substr(line.find(','));
+  where.put("run.csv", tangent);
+  const Outcome refused = run(where, stated({"--axial"}));
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.out, {"Axial interference: not estimated",
+                                 "do not tell magnetometer bias z from an error of the reference"}));
+  EXPECT_TRUE(says(refused.err, {"could not be estimated"}));
+}
+
+TEST(SurveyCommand, RefusesUnitsAndAxesThatCannotBe) {
+  const Desk where;
+  Hole hole;
+  hole.unit_nt = 1000.0;  // uT under the name of G
+  hole.header = "md_m,gx_mps2,gy_mps2,gz_mps2,bx_G,by_G,bz_G\n";
+  where.put("run.csv", hole.csv());
+  Outcome outcome = run(where, stated());
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(says(outcome.err, {"bx_G", "a field of 5100 uT", "right in uT"}));
+  hole = Hole{};
+  hole.exchanged = true;
+  where.put("run.csv", hole.csv());
+  outcome = run(where, stated());
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_TRUE(says(outcome.err, {"x and y of one triad are exchanged", "rename the columns"}));
+}
+
+TEST(SurveyCommand, SaysWhatIsMissing) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const std::pair<std::vector<std::string>, std::vector<std::string>> cases[] = {
+      {{"survey", "run.csv"}, {"--gravity", "state it, or give --place"}},
+      {{"survey", "run.csv", "--gravity", "9.81 m/s^2"}, {"--field", "give --place and --date"}},
+      {{"survey", "run.csv", "--place", "60,2"}, {"--date", "give --place and --date"}},
+      {{"survey", "run.csv", "--place", "60", "--date", "2026-01-01"}, {"--place", "write it as in"}},
+      {{"survey", "run.csv", "--place", "91,2", "--date", "2026-01-01"}, {"--place"}},
+      {{"survey", "run.csv", "--place", "60,2", "--date", "2031-01-01"},
+       {"--date", "holds from 2025.0 to 2030.0", "coefficients"}},
+      {{"survey", "run.csv", "--place", "60,2", "--date", "1.1.2026"}, {"--date"}},
+      {{"survey", "run.csv", "--gravity", "9.81", "--field", "50000 nT", "--dip", "70 deg"}, {"--gravity"}},
+      {{"survey", "run.csv", "--gravity", "9.81 m/s^2", "--field", "50000 nT"}, {"--dip", "state both"}},
+      {{"survey", "run.csv", "--gravity", "9.81 m/s^2", "--field", "50 nT", "--dip", "70 deg"},
+       {"total field", "1 uT is 1000 nT"}},
+      {{"survey", "run.csv", "--gravity", "9.81 m/s^2", "--field", "50000 nT", "--dip", "70 deg", "--north", "true"},
+       {"--north", "no declination"}},
+      {{"survey", "run.csv", "--gravity", "9.81 m/s^2", "--field", "50000 nT", "--dip", "70 deg", "--north", "up"},
+       {"magnetic, true or grid"}},
+      {stated({"--north", "grid"}), {"no convergence", "--convergence"}},
+      {stated({"--height", "3 m"}), {"--height", "without a place"}},
+  };
+  for (const auto& [arguments, words] : cases) {
+    const Outcome outcome = run(where, arguments);
+    EXPECT_NE(outcome.code, 0) << arguments.back();
+    EXPECT_TRUE(says(outcome.err, words));
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(SurveyCommand, OfAToolUpsideDownJudgesNothing) {
+  const Desk where;
+  where.put(
+      "run.csv",
+      "md_m,gx_mps2,gy_mps2,gz_mps2,bx_nT,by_nT,bz_nT\n1,0.1,0.2,9.0,1000,2000,48000\n2,0.1,0.3,9.1,1000,2000,48000\n");
+  const Outcome outcome = run(where, stated());
+  EXPECT_EQ(outcome.code, 7);
+  EXPECT_TRUE(says(outcome.out, {"rejected (G"}));
+  EXPECT_TRUE(says(outcome.err, {"no station passed the check of gravity"}));
+}
+
+}  // namespace
+}  // namespace survey_command_test
