@@ -134,9 +134,9 @@ const plumb_bench::Enrolled kMonitored{{"log: a CSV row, read and monitored, pro
 const plumb_bench::Enrolled kMonitoredByTheClock{{"log: a CSV row, read and monitored, by the clock", "reading alone",
                                                   1.0 / 1.6, [] { return monitored(false, reading(false)); },
                                                   plumb_bench::Clock::wall}};
-const plumb_bench::Enrolled kMonitoredUlog{{"log: a ULog row, read and monitored, processor time",
-                                              "the same as CSV", 0.0, [] { return monitored(true, monitoring(false)); },
-                                              plumb_bench::Clock::program}};
+const plumb_bench::Enrolled kMonitoredUlog{{"log: a ULog row, read and monitored, processor time", "the same as CSV",
+                                            0.0, [] { return monitored(true, monitoring(false)); },
+                                            plumb_bench::Clock::program}};
 const plumb_bench::Enrolled kMonitoredUlogByTheClock{
     {"log: a ULog row, read and monitored, by the clock", "the same as CSV", 0.0,
      [] { return monitored(true, monitoring(false)); }, plumb_bench::Clock::wall}};

@@ -87,6 +87,8 @@ RC_GTEST_PROP(MedianRateLaw, ItsErrorIsWithinWhatIsStated, ()) {
   }
   rates.rate_radps[1] = {anything(), anything(), anything()};
   const MedianRate found = median_rate(rates, 1);
+  const Vec3& third = rates.rate_radps[1];
+  RC_ASSERT(found.given == (std::isfinite(third[0]) && std::isfinite(third[1]) && std::isfinite(third[2])));
   if (!found.given) return;
   const double error = norm(minus(found.rate_radps, truth));
   RC_ASSERT(error <= median_error_radps(triad, norm(found.rate_radps), kSigmas) * (1.0 + 1e-12) + 1e-12);
