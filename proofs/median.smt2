@@ -1,5 +1,6 @@
 ; The median of gyro triads, one component (docs/theory.md, T15): of three with one that reads anything, and of five with
 ; two, it lies between two healthy ones; with one fault more it need not.
+; Verifies: REQ-214
 (set-logic QF_LRA)
 (define-fun least ((a Real) (b Real)) Real (ite (< a b) a b))
 (define-fun most ((a Real) (b Real)) Real (ite (< a b) b a))

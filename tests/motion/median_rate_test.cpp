@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+// Serves: REQ-214
+
 namespace median_rate_test {
 namespace {
 
@@ -32,6 +34,7 @@ double anything() {
                                           std::numeric_limits<double>::quiet_NaN()));
 }
 
+// Verifies: REQ-214
 RC_GTEST_PROP(MedianRateLaw, EachComponentLiesBetweenTwoHealthyTriads, ()) {
   const int triads = *rc::gen::inRange(1, kMostTriads + 1);
   const int faults = (triads - 1) / 2;
@@ -67,6 +70,7 @@ RC_GTEST_PROP(MedianRateLaw, EachComponentLiesBetweenTwoHealthyTriads, ()) {
 }
 
 // What it is stated to be off by holds of the length of its error, at the largest errors of healthy triads too.
+// Verifies: REQ-214
 RC_GTEST_PROP(MedianRateLaw, ItsErrorIsWithinWhatIsStated, ()) {
   const GyroErrors triad = {0.01 * *rc::gen::inRange(0, 20), 0.01 * *rc::gen::inRange(0, 20),
                             0.001 * *rc::gen::inRange(0, 20), 0.001 * *rc::gen::inRange(0, 5), 0.0};
@@ -94,18 +98,20 @@ RC_GTEST_PROP(MedianRateLaw, ItsErrorIsWithinWhatIsStated, ()) {
   RC_ASSERT(error <= median_error_radps(triad, norm(found.rate_radps), kSigmas) * (1.0 + 1e-12) + 1e-12);
 }
 
+// Verifies: REQ-214
 TEST(MedianRate, WhereScaleAndAxesMayBeAnythingNothingIsStated) {
   EXPECT_EQ(median_error_radps({0.4, 0.2, 0.0, 0.0, 0.0}, 1.0, 6.0), std::numeric_limits<double>::infinity());
   EXPECT_DOUBLE_EQ(median_error_radps({0.0, 0.0, 0.1, 0.0, 0.0}, 1.0, 6.0), 0.1 * std::sqrt(3.0));
 }
 
-// Negative: with one fault more than it is asked to stand, it goes where the faulty ones want.
+// With one fault more than it is asked to stand, it goes where the faulty ones want.
 TEST(MedianRate, TwoOfThreeOutvoteTheThird) {
   const MedianRate found = median_rate(of({{9.0, 9.0, 9.0}, {1.0, 1.0, 1.0}, {9.5, 9.5, 9.5}}), 1);
   ASSERT_TRUE(found.given);
   EXPECT_DOUBLE_EQ(found.rate_radps[0], 9.0);
 }
 
+// Negative: REQ-214
 TEST(MedianRate, OneMeasuresTwoAreAveragedAndTooFewGiveNothing) {
   EXPECT_EQ(median_rate(of({{1.0, 2.0, 3.0}}), 0).rate_radps, (Vec3{1.0, 2.0, 3.0}));
   EXPECT_EQ(median_rate(of({{1.0, 2.0, 3.0}, {3.0, 2.0, 1.0}}), 0).rate_radps, (Vec3{2.0, 2.0, 2.0}));

@@ -10,6 +10,8 @@
 
 #include "motion/gyro_array.hpp"
 
+// Serves: REQ-213
+
 namespace rate_monitor_test {
 namespace {
 
@@ -25,6 +27,7 @@ constexpr double kNoise_radps = 0.002;
 /// Axes of a cone in general position, each a unit of its own.
 GyroArray of_cone(int n, std::uint64_t seed) { return {cone_array(n, kNoise_radps), rate_setup(), seed}; }
 
+// Verifies: REQ-213
 RC_GTEST_PROP(RateMonitorLaw, HealthyAxesRaiseNoAlarmAndKeepTheirBound, ()) {
   GyroArray gyros = of_cone(*rc::gen::inRange(4, 9), *rc::gen::arbitrary<std::uint32_t>());
   gyros.turn(0, 700);
@@ -35,6 +38,7 @@ RC_GTEST_PROP(RateMonitorLaw, HealthyAxesRaiseNoAlarmAndKeepTheirBound, ()) {
 }
 
 // Whatever one axis reads, no healthy one is blamed, and the rate keeps its bound.
+// Verifies: REQ-213
 RC_GTEST_PROP(RateMonitorLaw, OneAxisBlamesNoOther, ()) {
   const int n = *rc::gen::inRange(4, 9);
   GyroArray gyros = of_cone(n, *rc::gen::arbitrary<std::uint32_t>());
@@ -118,6 +122,7 @@ TEST(RateMonitor, ASmallerOffsetThanItsBoundsAllowIsNoFault) {
   EXPECT_FALSE(gyros.monitor.verdict().alarm);
 }
 
+// Negative: REQ-213
 TEST(RateMonitor, WhereTheToolTurnedNobodyIsBlamed) {
   GyroArray gyros = of_cone(6, 5);
   gyros.at_rest = true;
