@@ -14,6 +14,7 @@
 #include "plumb/logs/log_aligner.hpp"
 #include "plumb/review/log_import.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "table_options.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -30,6 +31,7 @@ struct ImportOptions {
   review::ImportSettings settings;
   logs::Alignment alignment = logs::Alignment::linear;
   io::LogWriter::Form form = io::LogWriter::Form::csv;
+  logs::CsvHints table;
 };
 
 std::string log_path_of(const ImportOptions& options) {
@@ -122,7 +124,7 @@ io::FileExpected<std::string> write_log(const ImportOptions& options, const revi
   std::vector<logs::AlignedSource> sources;
   for (std::size_t k = 0; k < plan.sources.size(); ++k) sources.push_back({plan.sources[k], plan.longest_gap_s[k]});
   logs::LogAligner aligner(sources, plan.reference, options.alignment, std::ref(rows));
-  const io::FileExpected<logs::LogExtent> extent = logs::read_log(options.log, aligner);
+  const io::FileExpected<logs::LogExtent> extent = logs::read_log(options.log, options.table, aligner);
   if (!extent) return tl::unexpected<io::FileError>(extent.error());
   aligner.finish();
   if (rows.error()) return tl::unexpected<io::FileError>(*rows.error());
@@ -196,7 +198,7 @@ io::ExitCode run_import(ImportOptions& options) {
   if (const std::optional<io::FileError> clash =
           overwritten({{"--out", array_path}, {"--out", table_path}, {"--out", log_path}}, {{"LOG", options.log}}))
     return report(*clash);
-  const io::FileExpected<review::LogDigest> digest = review::digest_log(options.log);
+  const io::FileExpected<review::LogDigest> digest = review::digest_log(options.log, options.table);
   if (!digest) return report(digest.error());
   io::FileExpected<review::ImportPlan> plan =
       review::plan_import(*digest, review::review_log(*digest), options.settings);
@@ -263,6 +265,7 @@ Command add_import(const Options& tool) {
   command.add_flag("--rates", options->settings.rates, "With the rates of the first gyro, for a tool that turns");
   command.add_option("--gravity", options->gravity, "Gravity where the log was taken (default: anywhere on the ground)")
       .type_name("\"9.81 m/s^2\"");
+  add_table_options(command, options->table);
   command.footer(kImportNotes + exit_codes_help());
   return {command, kImportAbout, [options] { return run_import(*options); }};
 }

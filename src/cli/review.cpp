@@ -14,6 +14,7 @@
 #include "plumb/io/units.hpp"
 #include "plumb/render/review_report.hpp"
 #include "plumb/review/time_skew.hpp"
+#include "table_options.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -30,6 +31,7 @@ struct ReviewOptions {
   bool json = false;
   bool notes = false;
   int jobs = 0;  ///< 0: as many as the machine runs at a time
+  logs::CsvHints table;
 };
 
 constexpr const char* kReviewAbout =
@@ -86,6 +88,7 @@ io::ExitCode exit_code_of(const std::vector<review::LogReview>& logs, bool unrea
 
 io::FileExpected<review::ReviewSettings> settings_of(const ReviewOptions& options) {
   review::ReviewSettings out;
+  out.table = options.table;
   if (options.gravity.empty()) return out;
   io::FileExpected<double> gravity = io::parse_quantity(io::Quantity::acceleration, options.gravity);
   if (gravity && *gravity >= 1.0 && *gravity <= 30.0) {
@@ -159,6 +162,7 @@ Command add_review(const Options& tool) {
   command.add_option("--jobs", options->jobs, "Logs read at a time (default: one for each processor)").range(1, 256);
   command.add_flag("--notes", options->notes, "Show every note that the reader left, with its byte");
   command.add_flag("--json", options->json, "Print everything as JSON");
+  add_table_options(command, options->table);
   command.footer(kReviewNotes + exit_codes_help());
   return {command, kReviewAbout, [options] { return run_review(*options); }};
 }

@@ -6,6 +6,7 @@
 
 #include "log_magic.hpp"
 #include "plumb/io/mapped_file.hpp"
+#include "plumb/logs/csv_log.hpp"
 #include "plumb/logs/flight_log.hpp"
 
 namespace plumb {
@@ -55,6 +56,10 @@ io::FileExpected<LogFormat> log_format(const std::string& path) {
 }
 
 io::FileExpected<LogExtent> read_log(const std::string& path, LogSink& sink) {
+  return read_log(path, CsvHints{}, sink);
+}
+
+io::FileExpected<LogExtent> read_log(const std::string& path, const CsvHints& table, LogSink& sink) {
   const auto format = log_format(path);
   if (!format) return tl::make_unexpected(format.error());
   switch (*format) {
@@ -62,9 +67,9 @@ io::FileExpected<LogExtent> read_log(const std::string& path, LogSink& sink) {
     case LogFormat::dataflash: return read_dataflash(path, sink);
     case LogFormat::mcap: return read_mcap(path, sink);
     case LogFormat::rosbag2: return read_rosbag2(path, sink);
-    case LogFormat::csv: return read_csv_log(path, sink);
+    case LogFormat::csv: break;
   }
-  return read_csv_log(path, sink);
+  return read_csv_log(path, table, sink);
 }
 
 }  // namespace logs

@@ -163,6 +163,35 @@ TEST(ReviewCommand, ALogThatIsCutShortIsJudgedByWhatIsThere) {
   EXPECT_GE(found["logs"][0]["notes"].size(), 1U);
 }
 
+// What is found out of a table is said, and what is stated of it goes instead.
+TEST(ReviewCommand, ATableIsReadAsItIsStated) {
+  const Workshop where;
+  std::string bare, with_names = "n;ax;ay;az\n";
+  for (int k = 0; k < 600; ++k) {
+    const std::string noise = "0," + std::to_string(10 + k % 3);
+    bare += std::to_string(10 * k) + ";" + noise + ";" + noise + ";-9" + noise.substr(1) + "\n";
+    with_names += "7;" + noise + ";" + noise + ";-9" + noise.substr(1) + "\n";
+  }
+  where.put("bare.csv", bare);
+  where.put("names.csv", with_names);
+  EXPECT_TRUE(says(run(where, {"review", "bare.csv"}).err, {"has no header"}));
+  const Outcome stated = run(where, {"review", "bare.csv", "--table-header", "t,ax,ay,az", "--table-time", "ms"});
+  EXPECT_TRUE(says(stated.out, {"decimal comma", "Log: 6.0 s", "100 Hz"})) << stated.out << stated.err;
+  EXPECT_EQ(run(where, {"review", "names.csv"}).code, 3) << "it has no time";
+  const Outcome timed = run(where, {"review", "names.csv", "--table-rate", "50 Hz"});
+  EXPECT_TRUE(says(timed.out, {"Log: 12.0 s", "50 Hz"})) << timed.out << timed.err;
+  const nlohmann::json in_g = review_of(where, {"names.csv", "--table-rate", "50 Hz", "--table-unit", "mg"}, 9);
+  EXPECT_EQ(in_g["logs"][0]["findings"][0]["code"], "gravity_length");
+  const Outcome imported =
+      run(where, {"import", "bare.csv", "--out", "made", "--table-header", "t,ax,ay,az", "--table-time", "ms"});
+  EXPECT_EQ(imported.code, 0) << imported.err;
+  EXPECT_TRUE(says(where.text("made/log.csv"), {"t_s,x0,y0,z0"}));
+  for (const char* wrong : {"g", "furlong"})
+    EXPECT_EQ(run(where, {"review", "names.csv", "--table-unit", wrong}).code, 2) << wrong;
+  EXPECT_EQ(run(where, {"review", "names.csv", "--table-rate", "0 Hz"}).code, 2);
+  EXPECT_EQ(run(where, {"review", "names.csv", "--table-header", "t"}).code, 2);
+}
+
 TEST(ReviewCommand, OptionsThatCannotBeAreRefused) {
   const Workshop where;
   where.put("sound.ulg", flight());

@@ -29,6 +29,9 @@ struct CsvHints {
 /// As `read_csv_log` of flight_log.hpp. Hints that contradict the file are an error.
 io::FileExpected<LogExtent> read_csv_log(const std::string& path, const CsvHints& hints, LogSink& sink);
 
+/// As `read_log` of flight_log.hpp; of a log that is no table the hints are not looked at.
+io::FileExpected<LogExtent> read_log(const std::string& path, const CsvHints& table, LogSink& sink);
+
 }  // namespace logs
 }  // namespace PLUMB_ABI
 }  // namespace plumb

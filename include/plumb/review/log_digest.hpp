@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/logs/csv_log.hpp"
 #include "plumb/logs/flight_log.hpp"
 
 namespace plumb {
@@ -154,8 +155,9 @@ class LogDigester final : public logs::LogSink {
   std::vector<Saying> sayings_;  ///< as `LogDigest::statuses`
 };
 
-/// Reads any log that `logs::read_log` knows. Refused where that refuses it.
-io::FileExpected<LogDigest> digest_log(const std::string& path);
+/// Reads any log that `logs::read_log` knows; `table` is what is known of a table beforehand. Refused where that
+/// refuses it.
+io::FileExpected<LogDigest> digest_log(const std::string& path, const logs::CsvHints& table = {});
 
 }  // namespace review
 }  // namespace PLUMB_ABI

@@ -138,6 +138,8 @@ struct LogReview {
 struct ReviewSettings {
   /// Gravity where the log was taken; without it, anywhere on the ground of the Earth.
   std::optional<double> gravity_mps2;
+  /// What is known of a table of text, for `review_file`.
+  logs::CsvHints table;
 };
 
 /// A pure function of the digest.
