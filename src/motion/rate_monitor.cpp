@@ -56,8 +56,9 @@ AngularRate rate_of(const SpecificForce& found) noexcept {
   return out;
 }
 
+/// What the sample says counts, beyond the stated bound too: with less a healthy axis would be off.
 double force_of(const RateSample& sample, const RateSetup& setup) noexcept {
-  return within(sample.force_mps2, setup.force_bound_mps2) ? sample.force_mps2 : setup.force_bound_mps2;
+  return within(sample.force_mps2, kMostForce_mps2) ? sample.force_mps2 : setup.force_bound_mps2;
 }
 
 /// Of tests that each axis takes once a block at rest.
@@ -93,8 +94,9 @@ void RateMonitor::forget() noexcept {
   parity_.set_in_service(array_.all());
 }
 
-/// A healthy axis reads its bias, what the tool turns by, and noise. Where half of the units or more read another rate,
-/// the tool turned: the host was wrong about rest, no axis is.
+/// A healthy axis reads its bias, what the tool turns by, and noise. That one reads more is no fault of it while one
+/// rate explains all axes: the host may be wrong about rest, above all where the tool turns about the vertical, which
+/// no accelerometer feels. So rest only decides between those whom parity suspects (docs/theory.md, T15).
 void RateMonitor::judge_rest() noexcept {
   SensorSet off;
   const double n = rest_.samples;
@@ -107,11 +109,12 @@ void RateMonitor::judge_rest() noexcept {
                          rest_quantile_ * array_.sigma_mps2(i) / std::sqrt(n);
     if (!(std::fabs(rest_.sum_radps[k]) <= limit * n)) off = off.with(i);
   }
-  const SensorUnits& units = array_.units();
-  verdict_.turned_at_rest = !off.empty() && 2 * units.count(off) >= units.count(rest_.delivered);
-  if (verdict_.turned_at_rest) return;
   const SensorSet silent = array_.all() - rest_.delivered;
-  verdict_.off_at_rest = off | (verdict_.off_at_rest & silent);
+  const MotionVerdict& parity = parity_.verdict();
+  // Without a suspect although readings contradict: the axes are too few to name any, and rest decides between all.
+  const SensorSet suspected = !parity.alarm ? SensorSet() : parity.suspects.empty() ? array_.all() : parity.suspects;
+  verdict_.off_at_rest = (off & suspected) | (verdict_.off_at_rest & (off | silent));
+  verdict_.turned_at_rest = !off.empty() && verdict_.off_at_rest.empty();
   parity_.set_in_service(array_.all() - verdict_.off_at_rest);
 }
 

@@ -4,7 +4,8 @@
 /// motion (docs/theory.md, T11) serves them as it stands: `MotionMonitor` with rates in the place of forces. No lever
 /// arm and no other gyro enters. What differs is what is known of the vector: of a rate not even its length, but at
 /// rest it is near zero (`RateSetup::at_rest_radps`, the Earth's). So n axes, each a unit of its own, isolate up to
-/// n - 4 faults by parity; at rest each axis is held against zero too.
+/// n - 4 faults by parity. At rest each axis is held against zero too: that tells which of those it is that parity
+/// suspects, where the axes are too few to tell. It holds while the tool does not turn at rest and fail at once.
 ///
 /// Plain data, no heap, no clock; `step` is total over all bit patterns.
 #pragma once
@@ -26,7 +27,7 @@ struct RateErrors {
   double axis_rad = 0.0;  ///< turn of the axis
   double bias_radps = 0.0;
   double lag_s = 0.0;  ///< skew against the others, and what its bandwidth differs from theirs by, as a time
-  double g_sensitivity_s_per_m = 0;  ///< shift of the reading per specific force [(rad/s) / (m/s^2)]
+  double g_sensitivity_s_per_m = 0.0;  ///< shift of the reading per specific force [(rad/s) / (m/s^2)]
 };
 
 /// All that a `RateMonitor` is told beside the array, whose sigmas are the noise of a sample of each axis [rad/s] and
@@ -69,11 +70,14 @@ struct RateVerdict {
   AngularRate block;   ///< of the last two blocks of `block_samples[2]` samples
   bool block_ended = false;
   bool alarm = false;
-  SensorSet suspects;     ///< in some of the smallest explanations
-  SensorSet isolated;     ///< in every explanation, or off zero at rest; not excluded yet
-  SensorSet excluded;     ///< provisionally, by parity
-  SensorSet off_at_rest;  ///< read a rate in the last block at rest that no healthy axis does; out of service
-  /// Half of the units or more were off zero in the last block at rest: the tool turned, nobody is blamed.
+  SensorSet suspects;  ///< in some of the smallest explanations
+  SensorSet isolated;  ///< in every explanation, or off zero at rest; not excluded yet
+  SensorSet excluded;  ///< provisionally, by parity
+  /// Suspected by parity, and read a rate in the last block at rest that no healthy axis does; out of service until one
+  /// in which they do not.
+  SensorSet off_at_rest;
+  /// Axes were off zero in the last block at rest, and parity suspects none of them: the tool turned, or a fault is too
+  /// small for parity. Nobody is blamed.
   bool turned_at_rest = false;
   MotionCause cause = MotionCause::none;
 };

@@ -45,8 +45,8 @@ struct EstimateRefusal {
   double limit = 0.0;
   Term first = Term::accelerometer_bias_x, second = Term::accelerometer_bias_x;
   /// not_observable: the combination of terms, in units of their stated sigmas, whose own sigma is `value` times what
-  /// the tool's stated errors already say, were the references unknown. An estimate that only the reference vouches for
-  /// is an error of the reference by another name.
+  /// the tool's stated errors already say, were the references unknown. An estimate that only the reference
+  /// corroborates is an error of the reference by another name.
   TermValues direction{};
 
   std::string text() const;

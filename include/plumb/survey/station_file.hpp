@@ -12,11 +12,12 @@ inline namespace PLUMB_ABI {
 namespace survey {
 
 /// Columns by name, the unit at its end; capitals count in the units alone:
-///   md_m, md_ft            measured depth
-///   gx_mps2, gx_g, gx_mg   accelerometers, positive where the axis points down (ISCWSA); a bare g is g0 = 9.80665
-///   m/s^2 ax_mps2, ax_g, ax_mg   the same as specific force, which at rest points up: the sign is turned bx_nT, bx_uT,
-///   bx_mG, bx_G, bx_T   magnetometers; mx_ and magx_ are read as well
-/// and y, z alike, all three of a triad in one unit. Other columns are left alone.
+///   md_m, md_ft                        measured depth
+///   gx_mps2, gx_g, gx_mg               accelerometers, positive where the axis points down (ISCWSA)
+///   ax_mps2, ax_g, ax_mg               the same as specific force, which at rest points up: the sign is turned
+///   bx_nT, bx_uT, bx_mG, bx_G, bx_T    magnetometers; mx_ and magx_ are read as well
+/// A g is 9.80665 m/s^2.
+/// y and z alike, all three of a triad in one unit. Other columns are left alone.
 struct StationFile {
   std::vector<Measurement> stations;  ///< random errors and bias bounds are 0: the caller states them
   std::string gravity_unit, field_unit;
