@@ -47,8 +47,8 @@ std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& grou
   if (!earlier.empty()) out += fmt::format("earlier     {} out of service for a time\n", sensor_names(earlier, array));
   if (run.turned_at_rest > 0)
     out += fmt::format(
-        "at rest     {} gyros read a rate that parity does not blame on any of them: the tool turned "
-        "while it was said to stand still, or a fault is too small for parity\n",
+        "at rest     {}, gyros read a rate that parity blames on none of them: the tool turned while it was said to "
+        "stand still, or a fault is too small for parity\n",
         count_text(static_cast<std::size_t>(run.turned_at_rest), "time"));
   out +=
       run.bounded_blocks > 0

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "plumb/core/units.hpp"
+#include "plumb/io/field_json.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
 #include "plumb/render/calibration_notes.hpp"
@@ -99,6 +100,7 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
 std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
                          double days, const io::Json& roll_test, const MotionTold& motion) {
   nlohmann::ordered_json s;
+  if (!array.group.empty()) s["group"] = array.group;
   s["state"] = to_string(run.last.state);
   s["output"] = to_string(run.last.validity);
   s["samples"] = run.samples;
@@ -117,7 +119,7 @@ std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& ar
   if (!roll_test.is_null()) s["roll_test"] = roll_test;
   if (motion.any()) s["motion"] = motion_json(motion, array);
   s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, array.output_frame));
-  return in_field_units(io::object({{"summary", std::move(s)}}), array.field).dump() + "\n";
+  return io::in_field_units(io::object({{"summary", std::move(s)}}), array.field).dump() + "\n";
 }
 
 }  // namespace render
