@@ -29,7 +29,7 @@ const char* const kFields[] = {"nT", "uT", "mG", "G", "mT", "T"};
 double base_of(const char* unit, io::FieldKind field) { return io::parse_raw_unit(unit, field)->base_per_unit; }
 
 /// The units in which such a vector is logged.
-std::vector<const char*> units_of(io::FieldKind field) {
+std::vector<const char*> log_units(io::FieldKind field) {
   if (field == io::FieldKind::magnetic) return {std::begin(kFields), std::end(kFields)};
   return {std::begin(kAccelerations), std::end(kAccelerations)};
 }
@@ -72,7 +72,7 @@ UnitGuess likely_unit(const io::ArrayFile& array, double factor) {
     scale += std::fabs(array.datasheet.sensor[static_cast<std::size_t>(i)].coefficients.scale[0]) / array.array.size();
   }
   const double numbers = factor * array.gravity.g_mps2 * scale;
-  for (const char* unit : units_of(array.field)) {
+  for (const char* unit : log_units(array.field)) {
     if (near_one(numbers * base_of(unit, array.field) / array.gravity.g_mps2)) return {Kind::unit, unit};
   }
   if (stated.kind != io::RawUnit::Kind::count && numbers > kCounts) return {Kind::counts};

@@ -15,6 +15,9 @@ struct Suffix {
   double factor;
 };
 
+/// A name that holds a figure: 0.2 mg0 inside are 7.85 nT.
+constexpr std::string_view kUsualStability = "stability_0_2_mg0";
+
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
@@ -48,8 +51,9 @@ Json of_magnetic(const Json& value) {  // NOLINT(misc-no-recursion) as deep as t
     std::string key = old;
     if (const std::size_t at = key.find("gravity"); at != std::string::npos) key.replace(at, 7, "field");
     double factor = 0.0;
+    if (key == kUsualStability) key = "stability_7_85_nt";
     for (const Suffix& suffix : kMagnetic) {
-      if (!ends_with(key, suffix.of_gravity)) continue;
+      if (one.is_object() || !ends_with(key, suffix.of_gravity)) continue;
       key.replace(key.size() - suffix.of_gravity.size(), std::string::npos, suffix.of_field);
       factor = suffix.factor;
       break;
@@ -72,7 +76,7 @@ Json stretched(const Json& value, double factor) {  // NOLINT(misc-no-recursion)
            : ends_with(key, "_mps2") || ends_with(key, "_mps2_per_h") || ends_with(key, "_mg0") ? factor
                                                                                                 : 0.0;
     }
-    *item = by > 0.0 ? scaled_by(*item, by) : stretched(*item, factor);
+    *item = by > 0.0 && !item->is_object() ? scaled_by(*item, by) : stretched(*item, factor);
   }
   return out;
 }

@@ -32,13 +32,16 @@ const char* fine_unit(const io::ArrayFile& array) noexcept { return io::units_of
 std::string in_field_words(std::string text, io::FieldKind field) {
   if (field == io::FieldKind::gravity) return text;
   const io::FieldUnits& units = io::units_of(field);
-  for (const auto& [word, by] : {std::pair<std::string_view, std::string_view>{"mg0", units.fine},
-                                 {"m/s^2", units.coarse},
-                                 {"[gravity]", "[group.reference]"},
-                                 {"normal gravity", units.vector},
-                                 {"gravity", units.vector},
-                                 {"accelerometer", units.sensor}})
+  for (const auto& [word, by] :
+       {std::pair<std::string_view, std::string_view>{"stability 0.2 mg0", "stability 7.85 nT"},
+        {"mg0", units.fine},
+        {"m/s^2", units.coarse},
+        {"[gravity]", "[group.reference]"},
+        {"normal gravity", units.vector},
+        {"gravity", units.vector},
+        {"accelerometer", units.sensor}})
     replace_word(text, word, by);
+  for (std::size_t at = text.find("|G|"); at != std::string::npos; at = text.find("|G|", at)) text[at + 1] = 'B';
   return text;
 }
 
