@@ -127,7 +127,7 @@ io::FileExpected<void> name_subject(const GeometryOptions& options, GeometrySubj
 }
 
 io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubject& subject) {
-  io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb geometry", Serves::lengths);
+  io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb geometry", Serves::gravity);
   if (!file) return tl::unexpected<io::FileError>(file.error());
   subject.name = file->name;
   subject.array = file->array;

@@ -34,6 +34,7 @@ std::string in_field_words(std::string text, io::FieldKind field) {
   const io::FieldUnits& units = io::units_of(field);
   for (const auto& [word, by] :
        {std::pair<std::string_view, std::string_view>{"stability 0.2 mg0", "stability 7.85 nT"},
+        {"m/s^2 for mae", "units of 4 uT for mae"},
         {"mg0", units.fine},
         {"m/s^2", units.coarse},
         {"[gravity]", "[group.reference]"},

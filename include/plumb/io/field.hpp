@@ -1,6 +1,6 @@
 /// Which vector a group of sensors measures, and how its readings stand inside plumb.
 ///
-/// All that the core knows of a field is the length of its vector at rest (docs/theory.md, section 1.4), so that a
+/// All that the core knows of a field is the length of its vector at rest (docs/theory.md, section 1.7), so that a
 /// magnetic field is calibrated and monitored as gravity is. Readings are brought to the size of gravity where a file
 /// is read, by a power of two, and back where a result is written: both lose nothing. 1 uT is 0.25 inside, so that the
 /// Earth's field, 22 to 67 uT, is 5.5 to 16.8. A rate is in rad/s inside; it has no length, and is judged by parity.
