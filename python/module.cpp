@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "motion_row.hpp"
+#include "plumb/geomagnetic/field_reference.hpp"
 
 namespace plumb_python {
 
