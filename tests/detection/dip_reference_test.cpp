@@ -45,6 +45,7 @@ DipScene drawn_scene(Noise& noise) {
   scene.stated.field.vector_nt = *rc::gen::element(0.0, 50.0, 500.0);
   scene.stated.field.turn_rad = *rc::gen::element(0.0, 0.003);
   scene.stated.reference.dip_error_rad.bound = *rc::gen::element(0.0, 0.01);
+  scene.stated.acceleration_mps2 = *rc::gen::element(0.0, 0.0, 0.01);
   return scene;
 }
 

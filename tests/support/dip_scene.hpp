@@ -65,10 +65,12 @@ struct DipScene {
   plumb::DipStation station(const plumb::Vec3& down, const plumb::Vec3& along, int faulty, double f_mps2, Noise& noise,
                             const std::function<double()>& draw) const {
     plumb::DipStation s = stated;
+    const plumb::Vec3 acceleration = plumb::scaled(random_direction(noise), s.acceleration_mps2 * draw());
+    const plumb::Vec3 felt = plumb::plus(plumb::scaled(down, g_mps2), acceleration);
     for (int i = 0; i < array.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
       const double error = (s.sigmas * s.sigma_mps2[k] + s.bound_mps2[k]) * draw();
-      s.mean_mps2[k] = plumb::dot(array.axis(i), down) * g_mps2 + error + (i == faulty ? f_mps2 : 0.0);
+      s.mean_mps2[k] = plumb::dot(array.axis(i), felt) + error + (i == faulty ? f_mps2 : 0.0);
     }
     const plumb::Vec3 turned = direction_beside(along, s.field.turn_rad * std::fabs(draw()), noise);
     const plumb::Vec3 interference = plumb::scaled(random_direction(noise), s.field.vector_nt * draw());
