@@ -70,7 +70,7 @@ DipReport DipWatch::add(const HealthMonitor& monitor, const MonitorSetup& setup,
   const bool named = out.answer.named >= 0;
   if (!bounded || v.state == HealthState::failed || v.faults_covered > 1 || !(smaller || named)) return out;
   out.protected_by_dip = true;
-  out.gravity_mps2 = times(setup.output_frame, out.answer.gravity_mps2);
+  if (named) out.gravity_mps2 = times(setup.output_frame, out.answer.gravity_mps2);
   out.protection_level_calibrated_axes_rad = out.answer.bound_rad;
   out.protection_level_housing_rad =
       std::fmin(out.answer.bound_rad + static_cast<double>(monitor.config().alignment_bound_rad), kPi);

@@ -19,12 +19,13 @@ inline plumb::Vec3 direction_beside(const plumb::Vec3& from, double angle_rad, N
   return plumb::plus(plumb::scaled(from, std::cos(angle_rad)), plumb::scaled(side, std::sin(angle_rad)));
 }
 
-/// Three axes of which no one lies nearer than `least_det` to the plane of the others: |det| from there to 1.
+/// Axes of which the first three have at least this determinant: at least 0.05 for three, and for more that no plane
+/// of others comes near all of them at least 0.16.
 inline plumb::AxisList random_axes(int n, double least_det, Noise& noise) {
   plumb::AxisList axes{};
   do
     for (int i = 0; i < n; ++i) axes[static_cast<std::size_t>(i)] = random_direction(noise);
-  while (std::fabs(plumb::det3(axes[0], axes[1], axes[2])) < least_det);
+  while (std::fabs(plumb::det3(axes[0], axes[1], axes[2])) < std::fmax(least_det, n > 3 ? 0.16 : 0.05));
   return axes;
 }
 
