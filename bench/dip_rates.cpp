@@ -35,7 +35,7 @@ SensorArray drawn_array(bool triad, Noise& noise) {
   } else {
     axes = plumb_test::random_axes(3, 0.3, noise);
   }
-  return plumb_test::make_array(axes, 3, 2e-4 * kG0_mps2);
+  return plumb_test::sensors_along(axes, 3);
 }
 
 /// Normal errors: one sigma of what is stated as sigma; beyond `sigmas` of it where chance has it so.

@@ -12,7 +12,7 @@ int main() {
   for (std::size_t i = 0; i < 3; ++i) rows[i] = {plumb::make_id(i == 0 ? "x" : i == 1 ? "y" : "z"), axes[i], 0.002};
   const plumb::SensorArray array = *plumb::SensorArray::make(rows, 3);
   const plumb::Vec3 down{-4.9049, -3.9239, 7.5339};  // the truth; y reads what a mirror would show it
-  plumb::DipStation s;                            // means of a block, and what they may be off by
+  plumb::DipStation s;                               // means of a block, and what they may be off by
   s.used = array.all();
   s.mean_mps2 = {down[0], down[1] + plumb::mirror_error(array, 0, 1, down), down[2]};
   s.sigma_mps2.fill(0.0005);

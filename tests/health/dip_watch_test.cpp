@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "plumb/core/detail/archive.hpp"
-#include "support/dip_scene.hpp"
+#include "support/simulated_tool.hpp"
 
 // Serves: REQ-222
 

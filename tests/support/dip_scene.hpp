@@ -5,8 +5,9 @@
 #include <cmath>
 #include <functional>
 
+#include "plumb/array/named.hpp"
 #include "plumb/detection/dip_evidence.hpp"
-#include "support/simulated_tool.hpp"
+#include "support/noise.hpp"
 
 namespace plumb_test {
 
@@ -27,6 +28,20 @@ inline plumb::AxisList random_axes(int n, double least_det, Noise& noise) {
     for (int i = 0; i < n; ++i) axes[static_cast<std::size_t>(i)] = random_direction(noise);
   while (std::fabs(plumb::det3(axes[0], axes[1], axes[2])) < std::fmax(least_det, n > 3 ? 0.16 : 0.05));
   return axes;
+}
+
+/// Sensors s0, s1, ... along these axes.
+inline plumb::SensorArray sensors_along(const plumb::AxisList& axes, int n) {
+  std::array<plumb::SensorRow, plumb::kCapacity> rows{};
+  for (int i = 0; i < n; ++i) {
+    const char id[] = {'s', static_cast<char>('0' + i), '\0'};
+    rows[static_cast<std::size_t>(i)] = {plumb::make_id(id), axes[static_cast<std::size_t>(i)], 2e-4 * plumb::kG0_mps2};
+  }
+  return *plumb::SensorArray::make(rows.data(), n);
+}
+inline plumb::SensorArray triad_array() {
+  plumb::AxisList axes{};
+  return sensors_along(axes, plumb::orthogonal_triad(axes));
 }
 
 /// The place and the instruments. Errors that are drawn stay within what is stated; `draw` gives -1 to 1.
