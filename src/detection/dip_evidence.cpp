@@ -46,10 +46,11 @@ void DipEvidence::take_up(const DipJudgement& station) noexcept {
   if (stations_ < kMostStations) ++stations_;
 }
 
-/// The direction of x - t column turns steadily with t: of every range, and of all together, the ends are furthest.
+/// The direction of x - t column turns steadily with t: of every range, and of all together, the ends are furthest. No
+/// fault is among those of every sensor.
 void DipEvidence::bound(const DipJudgement& station, DipAnswer& answer) const noexcept {
-  double worst = faultless_ ? angle_between_rad(answer.gravity_mps2, station.x_mps2) + station.none.turn_rad : 0.0;
-  bool any = faultless_;
+  double worst = 0.0;
+  bool any = false;
   for (int i = 0; i < kCapacity; ++i) {
     if (!suspects_.has(i)) continue;
     const FaultRanges left = shifts(station, i);

@@ -22,7 +22,7 @@ void FaultRanges::append(const FaultRange& more) noexcept {
     return;
   }
   // The nearest two of five: k and the one behind it, which may be `more`.
-  std::size_t nearest = static_cast<std::size_t>(kMost - 1);
+  auto nearest = static_cast<std::size_t>(kMost - 1);
   double least = more.low_mps2 - range[nearest].high_mps2;
   for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(kMost); ++k) {
     const double apart = range[k + 1].low_mps2 - range[k].high_mps2;

@@ -10,6 +10,15 @@ constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i)
 
 constexpr Mat3 transposed(const Mat3& m) noexcept { return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]}; }
 
+/// Whether the priors leave two faulty sensors or more to be covered (docs/theory.md, section 7.3): the dip covers one.
+bool two_may_be_faulty(const HealthMonitor& monitor) noexcept {
+  const double p = monitor.config().fault_prior;
+  const int n = monitor.array().size();
+  double none = 1.0;
+  for (int i = 0; i < n; ++i) none *= 1.0 - p;
+  return 1.0 - none * (1.0 + n * p / (1.0 - p)) > monitor.config().integrity_risk;
+}
+
 /// What the reading of sensor i may be off by beside its noise, of either sign.
 double bound_of(const Verdict& v, const HealthMonitor& monitor, const MonitorSetup& setup, int i) noexcept {
   const std::size_t k = index(i);
@@ -68,7 +77,7 @@ DipReport DipWatch::add(const HealthMonitor& monitor, const MonitorSetup& setup,
   const bool bounded = out.answer.verdict != DipVerdict::not_judged && out.answer.verdict != DipVerdict::unexplained;
   const bool smaller = !v.protection_available || out.answer.bound_rad < v.protection_level_calibrated_axes_rad;
   const bool named = out.answer.named >= 0;
-  if (!bounded || v.state == HealthState::failed || v.faults_covered > 1 || !(smaller || named)) return out;
+  if (!bounded || v.state == HealthState::failed || two_may_be_faulty(monitor) || !(smaller || named)) return out;
   out.protected_by_dip = true;
   if (named) out.gravity_mps2 = times(setup.output_frame, out.answer.gravity_mps2);
   out.protection_level_calibrated_axes_rad = out.answer.bound_rad;

@@ -210,6 +210,18 @@ TEST(DipEvidence, AFaultThatBeginsNeedsANewBeginningWhereItIsTakenForConstant) {
   EXPECT_TRUE(constant.bias(1).has(f));
 }
 
+TEST(DipEvidence, AFaultThatDoesNotShowEverywhereStaysOne) {
+  Noise noise(19);
+  const DipScene scene = DipScene::make(plumb_test::triad_array(), 60.0);
+  DipEvidence evidence;
+  for (const double f : {3.0, 0.0, 0.0}) {
+    const DipStation station = scene.station(plumb_test::direction_at(40, 70), 1, f, noise, kExact);
+    const DipAnswer answer = evidence.add(judge_dip(scene.array, station));
+    EXPECT_EQ(answer.verdict, DipVerdict::fault);
+    EXPECT_EQ(answer.named, 1);
+  }
+}
+
 // Verifies: REQ-223
 TEST(DipEvidence, ARefusedStationChangesNothing) {
   Noise noise(23);

@@ -37,7 +37,7 @@ DipScene drawn_scene(Noise& noise) {
   DipScene scene = DipScene::make(plumb_test::sensors_along(plumb_test::random_axes(n, least_det, noise), n), dip_deg);
   scene.stated.field.vector_nt = *rc::gen::element(0.0, 50.0, 500.0);
   scene.stated.field.turn_rad = *rc::gen::element(0.0, 0.003);
-  scene.stated.reference.dip_error_rad.bound = *rc::gen::element(0.0, 0.01);
+  scene.stated.reference.dip_error_rad.bound = *rc::gen::element(0.0, 0.01, 0.2);
   scene.stated.acceleration_mps2 = *rc::gen::element(0.0, 0.0, 0.01);
   return scene;
 }
@@ -198,6 +198,22 @@ TEST(DipReference, AFieldWithinItsReferenceIsJudgedAtAnyDip) {
     const DipJudgement judged = judge_dip(scene.array, station);
     EXPECT_EQ(judged.refusal, DipRefusal::none) << dip_deg;
     EXPECT_TRUE(judged.none.consistent()) << dip_deg;
+  }
+}
+
+/// Four sensors check each other without either reference.
+TEST(DipReference, ResidualsCountWhereThereAreMoreThanThree) {
+  Noise noise(13);
+  const DipScene scene = DipScene::make(plumb_test::tetrahedron(), 60.0);
+  DipStation station = scene.station(plumb_test::direction_at(40, 70), 2, 0.5, noise, [] { return 0.0; });
+  station.gravity.sigma_mps2 = 0.5;
+  station.reference.dip_error_rad.bound = kPi;
+  const DipJudgement judged = judge_dip(scene.array, station);
+  EXPECT_FALSE(judged.none.consistent());
+  for (std::size_t i = 0; i < 4; ++i) {
+    const FaultRanges fault = judged.faulty[i].fault();
+    ASSERT_EQ(fault.count, 1) << i;
+    EXPECT_NEAR(std::fabs(fault.range[0].low_mps2 + fault.range[0].high_mps2), 1.0, 0.02) << i;
   }
 }
 

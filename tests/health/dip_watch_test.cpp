@@ -34,13 +34,22 @@ FieldReading field_at(const Vec3& down) {
 /// The paper's four, of which the first dies: three are left.
 struct ThreeLeft {
   Rig rig{plumb_test::tetrahedron()};
-  double f_mps2 = 0.0;  ///< of sensor 2
+  double f_mps2 = 0.0;      ///< of sensor 2
+  double noise_mps2 = 0.0;  ///< beyond the stated one
+  bool dead = false;        ///< sensor 1
+  plumb_test::Noise noise{3};
 
-  ThreeLeft() {
-    rig.prove();
+  explicit ThreeLeft(
+      const std::function<void(MonitorSetup&)>& change = [](MonitorSetup&) {}, double more_noise_mps2 = 0.0)
+      : noise_mps2(more_noise_mps2) {
+    change(rig.setup);
+    rig.restart();
     rig.distort = [this](int i, double reading, int) {
-      return i == 0 ? std::nan("") : i == 1 ? reading + f_mps2 : reading;
+      if (i == 0 && dead) return std::nan("");
+      return reading + noise_mps2 * noise.normal() + (i == 1 ? f_mps2 : 0.0);
     };
+    rig.prove();
+    dead = true;
     rig.stay(direction_at(30, 40));
     rig.stay(direction_at(70, 140));
   }
@@ -170,6 +179,81 @@ TEST(DipWatch, TheStationIsThatOfTheMonitorAndItsFrame) {
   stated.resolution_raw.fill(2e-3);
   const DipStation wider = dip_station(tool.rig.monitor, stated, field_at(down), reference());
   EXPECT_NEAR(wider.bound_mps2[1], 4.0 * 2e-3 + 1e-3, 1e-6);
+}
+
+/// Noise as the monitor has learned it, what calibration left, gravity where the tool was calibrated.
+TEST(DipWatch, TheErrorsAreThoseOfTheMonitor) {
+  ThreeLeft tool(
+      [](MonitorSetup& setup) {
+        RowUncertainty left;
+        left.common_scale = 1e-4;
+        for (std::size_t k : {3U, 7U, 11U, 15U}) left.covariance[k * (k + 1) / 2 + k] = 1e-3 * 1e-3;
+        setup.array.set_uncertainty(left);
+      },
+      3e-3);
+  tool.rig.stay(direction_at(40, 70), 2);
+  const Verdict& v = tool.rig.monitor.verdict();
+  ASSERT_GT(v.noise_factor, 1.2);
+  const DipStation s = dip_station(tool.rig.monitor, tool.rig.setup, field_at(direction_at(40, 70)), reference());
+  const double noise = 2e-4 * kG0_mps2 * v.noise_factor * std::sqrt(v.noise_correlation / 32.0);
+  EXPECT_NEAR(s.sigma_mps2[1], std::hypot(noise, 1e-3), 1e-9);
+  EXPECT_NEAR(s.gravity.sigma_mps2, v.reference_sigma_mps2 + 1e-4 * v.reference_mps2, 1e-12);
+}
+
+/// The level is that of the housing where the turn of the axes in it is stated, and never larger than the verdict's.
+TEST(DipWatch, TheLevelAddsTheTurnOfTheAxesAndNeverGrows) {
+  ThreeLeft tool([](MonitorSetup& setup) { setup.config.alignment_bound_rad = 0.004F; });
+  DipWatch watch;
+  const Vec3 down = direction_at(40, 70);
+  const DipReport r = tool.report(watch, down);
+  ASSERT_TRUE(r.protected_by_dip);
+  EXPECT_NEAR(r.protection_level_housing_rad - r.protection_level_calibrated_axes_rad, 0.004, 1e-6);
+  for (const double dip_error_rad : {0.1, 0.5, 1.0, 3.2}) {
+    FieldReference vague = reference();
+    vague.dip_error_rad.bound = dip_error_rad;
+    DipWatch other;
+    const Verdict& v = tool.rig.stay(down, 1);
+    const DipReport wide = other.add(tool.rig.monitor, tool.rig.setup, field_at(down), vague);
+    ASSERT_TRUE(v.protection_available);
+    EXPECT_LE(wide.protection_level_calibrated_axes_rad, v.protection_level_calibrated_axes_rad) << dip_error_rad;
+    EXPECT_EQ(wide.protected_by_dip, wide.answer.bound_rad < v.protection_level_calibrated_axes_rad) << dip_error_rad;
+  }
+}
+
+/// One fault is all that the dip's bound is for.
+// Negative: REQ-222
+TEST(DipWatch, WhereTwoMayBeFaultyOrTheMonitorHasFailedTheLevelStaysTheMonitors) {
+  ThreeLeft likely([](MonitorSetup& setup) { setup.config.fault_prior = 0.01; });
+  DipWatch watch;
+  const Vec3 down = direction_at(40, 70);
+  const DipReport r = likely.report(watch, down);
+  EXPECT_FALSE(likely.rig.monitor.verdict().protection_available);
+  EXPECT_EQ(r.answer.verdict, DipVerdict::consistent);
+  EXPECT_FALSE(r.protected_by_dip);
+  EXPECT_EQ(r.protection_level_calibrated_axes_rad, kPi);
+
+  ThreeLeft failing;
+  failing.f_mps2 = 0.25 * kG0_mps2;
+  DipWatch other;
+  DipReport last;
+  for (int k = 0; k < 40 && failing.rig.monitor.verdict().state != HealthState::failed; ++k)
+    last = failing.report(other, direction_at(10.0 + 25.0 * (k % 6), 50.0 * k), 2);
+  ASSERT_EQ(failing.rig.monitor.verdict().state, HealthState::failed);
+  EXPECT_FALSE(last.protected_by_dip);
+}
+
+/// Of a tool that turns slowly three sensors give no block at rest: nothing is judged.
+TEST(DipWatch, ASlowTurnIsNoStation) {
+  ThreeLeft tool;
+  DipWatch watch;
+  int judged = 0;
+  for (int k = 0; k < 20 * 32; ++k) {
+    const Vec3 down = direction_at(40.0 + 0.01 * k, 70);
+    tool.rig.step(tool.rig.sample(down, kG0_mps2));
+    const DipReport r = watch.add(tool.rig.monitor, tool.rig.setup, field_at(down), reference());
+    if (r.answer.verdict != DipVerdict::not_judged) ++judged;
+  }
+  EXPECT_LE(judged, 1);  // the block that begins at rest
 }
 
 TEST(DipWatch, AnOutputFrameTurnsWhatIsPublished) {

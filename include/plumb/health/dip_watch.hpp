@@ -42,8 +42,8 @@ class DipWatch {
   explicit DipWatch(DipAssumption assumption) noexcept : evidence_(assumption) {}
 
   /// After a step whose verdict is a tick. Begins anew where other sensors serve than before. The bound is given in
-  /// place of the verdict's where it is the smaller one or the verdict has none, the monitor is not failed, and its own
-  /// level is for no more than one faulty sensor (`Verdict::faults_covered`).
+  /// place of the verdict's where it is the smaller one or the verdict has none, the monitor is not failed, and its
+  /// `fault_prior` and `integrity_risk` leave no more than one faulty sensor to be covered.
   DipReport add(const HealthMonitor& monitor, const MonitorSetup& setup, const FieldReading& field,
                 const FieldReference& reference) noexcept;
   void forget() noexcept { evidence_.forget(); }
