@@ -151,6 +151,32 @@ RC_GTEST_PROP(DipReferenceLaw, ALargerFaultThanTheSurelySeenIsSeen, ()) {
   RC_ASSERT(!judge_dip(scene.array, station).none.consistent());
 }
 
+/// A dip that is off by its whole bound, either way: no larger fault passes, and one of nearly that size does.
+TEST(DipReference, TheSurelySeenCountsTheErrorOfTheDipTwice) {
+  Noise noise(27);
+  DipScene scene = DipScene::make(plumb_test::triad_array(), 55.0);
+  constexpr double kBound_rad = 0.1;
+  scene.stated.reference.dip_error_rad = {0.0, kBound_rad};
+  const Vec3 down = plumb_test::direction_at(50, 130);
+  const Vec3 along = plumb_test::direction_beside(down, 0.5 * kPi - scene.dip_rad, noise);
+  DipStation figures = scene.stated;
+  figures.field.field_nt = scaled(along, scene.total_nt);
+  const double seen = surely_seen_mps2(scene.array, figures, scaled(down, scene.g_mps2), 0);
+  double largest = 0.0;
+  for (const double off_rad : {-kBound_rad, kBound_rad}) {
+    for (int k = -2000; k <= 2000; ++k) {
+      const double f = 0.01 * k;
+      DipStation station = scene.station(down, along, 0, f, noise, [] { return 0.0; });
+      station.reference.dip_rad += off_rad;
+      if (judge_dip(scene.array, station).none.consistent()) largest = std::fmax(largest, std::fabs(f));
+    }
+  }
+  EXPECT_LE(largest, seen);
+  EXPECT_GT(largest, 0.0);
+  figures.reference.dip_error_rad.bound = 0.5 * kBound_rad;
+  EXPECT_LT(surely_seen_mps2(scene.array, figures, scaled(down, scene.g_mps2), 0), seen);
+}
+
 // Verifies: REQ-223
 TEST(DipReference, WhatCannotBeJudgedIsRefusedWithAReason) {
   Noise noise(9);

@@ -36,17 +36,22 @@ struct ThreeLeft {
   Rig rig{plumb_test::tetrahedron()};
   double f_mps2 = 0.0;      ///< of sensor 2
   double noise_mps2 = 0.0;  ///< beyond the stated one
+  double memory = 0.0;      ///< of that noise, from sample to sample
   bool dead = false;        ///< sensor 1
   plumb_test::Noise noise{3};
+  std::array<double, 4> noise_of{};
 
   explicit ThreeLeft(
-      const std::function<void(MonitorSetup&)>& change = [](MonitorSetup&) {}, double more_noise_mps2 = 0.0)
-      : noise_mps2(more_noise_mps2) {
+      const std::function<void(MonitorSetup&)>& change = [](MonitorSetup&) {}, double more_noise_mps2 = 0.0,
+      double from_the_last = 0.0)
+      : noise_mps2(more_noise_mps2), memory(from_the_last) {
     change(rig.setup);
     rig.restart();
     rig.distort = [this](int i, double reading, int) {
       if (i == 0 && dead) return std::nan("");
-      return reading + noise_mps2 * noise.normal() + (i == 1 ? f_mps2 : 0.0);
+      double& last = noise_of[static_cast<std::size_t>(i)];
+      last = memory * last + noise_mps2 * noise.normal();
+      return reading + last + (i == 1 ? f_mps2 : 0.0);
     };
     rig.prove();
     dead = true;
@@ -190,10 +195,11 @@ TEST(DipWatch, TheErrorsAreThoseOfTheMonitor) {
         for (std::size_t k : {3U, 7U, 11U, 15U}) left.covariance[k * (k + 1) / 2 + k] = 1e-3 * 1e-3;
         setup.array.set_uncertainty(left);
       },
-      3e-3);
-  tool.rig.stay(direction_at(40, 70), 2);
+      2e-3, 0.95);
+  for (int k = 0; k < 10; ++k) tool.rig.stay(direction_at(40, 70));
   const Verdict& v = tool.rig.monitor.verdict();
   ASSERT_GT(v.noise_factor, 1.2);
+  ASSERT_GT(v.noise_correlation, 1.5);
   const DipStation s = dip_station(tool.rig.monitor, tool.rig.setup, field_at(direction_at(40, 70)), reference());
   const double noise = 2e-4 * kG0_mps2 * v.noise_factor * std::sqrt(v.noise_correlation / 32.0);
   EXPECT_NEAR(s.sigma_mps2[1], std::hypot(noise, 1e-3), 1e-9);
@@ -218,6 +224,24 @@ TEST(DipWatch, TheLevelAddsTheTurnOfTheAxesAndNeverGrows) {
     EXPECT_LE(wide.protection_level_calibrated_axes_rad, v.protection_level_calibrated_axes_rad) << dip_error_rad;
     EXPECT_EQ(wide.protected_by_dip, wide.answer.bound_rad < v.protection_level_calibrated_axes_rad) << dip_error_rad;
   }
+}
+
+/// A host that states more drift than the monitor knows gets no level that is larger than the monitor's.
+// Negative: REQ-222
+TEST(DipWatch, ALargerBoundDoesNotTakeThePlaceOfTheLevel) {
+  ThreeLeft tool;
+  DipWatch watch;
+  const Vec3 down = direction_at(40, 70);
+  tool.rig.stay(down, 2);
+  MonitorSetup vague = tool.rig.setup;
+  vague.stability.fill({0.4, 0.0, 0.0, 0.0});
+  FieldReference unknown = reference();
+  unknown.dip_error_rad.bound = kPi;
+  const DipReport r = watch.add(tool.rig.monitor, vague, field_at(down), unknown);
+  const Verdict& v = tool.rig.monitor.verdict();
+  ASSERT_GT(r.answer.bound_rad, v.protection_level_calibrated_axes_rad);
+  EXPECT_FALSE(r.protected_by_dip);
+  EXPECT_EQ(r.protection_level_calibrated_axes_rad, v.protection_level_calibrated_axes_rad);
 }
 
 /// One fault is all that the dip's bound is for.
