@@ -72,8 +72,9 @@ std::optional<io::FileError> missing_for_north(const SurveyOptions& options, con
     return io::FileError{"--north",
                          0,
                          "",
-                         "there is no declination to turn magnetic azimuths by",
-                         "state --declination, or --place and --date",
+                         "there is no declination to turn magnetic azimuths by" +
+                             (reference.field.declination_note.empty() ? "" : ": " + reference.field.declination_note),
+                         "state --field, --dip and --declination, or --place and --date",
                          io::ExitCode::usage};
   if (*options.north == survey::North::grid && options.convergence.empty())
     return io::FileError{

@@ -67,6 +67,13 @@ Json axial_json(const survey::Survey& s) {
                  {"freedom", e.freedom}});
 }
 
+Json saturated_json(const survey::Survey& s) {
+  Json out = Json::array();
+  for (const survey::SaturatedChannel& one : s.saturated)
+    out.push_back(object({{"component", one.component}, {"stations", one.stations}, {"text", one.text()}}));
+  return out;
+}
+
 Json path_json(const survey::Survey& s) {
   Json out = Json::array();
   if (!s.path) return out;
@@ -97,7 +104,9 @@ nlohmann::ordered_json survey_json(const SurveyReport& r) {
                  {"false_alarm", r.settings.station.checks.false_alarm},
                  {"field_source", io::printable_line(f.source)},
                  {"declination_deg", f.declination_known ? Json(deg_from_rad(f.declination_rad)) : Json()},
+                 {"declination_note", f.declination_note},
                  {"rows_left_out", r.rows_left_out},
+                 {"saturated", saturated_json(r.survey)},
                  {"stations", std::move(stations)},
                  {"error_tests", std::move(tests)},
                  {"axial_interference", axial_json(r.survey)},

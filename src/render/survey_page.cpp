@@ -96,6 +96,7 @@ std::vector<std::string> actions_of(const Survey& found) {
   if (!half.empty())
     out.push_back("Use no azimuth at " + half +
                   ": the field failed its checks. Look for magnetic interference and for a wrong place or date.");
+  for (const survey::SaturatedChannel& one : found.saturated) out.push_back(one.text() + ".");
   if (found.tests && !found.tests->gravity.mean_passed())
     out.push_back("Gravity is off at all stations alike: check its reference and the calibration of accelerometers.");
   if (found.tests && !(found.tests->field.mean_passed() && found.tests->dip.mean_passed()))
@@ -155,6 +156,7 @@ Section reference_section(const SurveyReport& r) {
                        "-", "stated; of a map, exact"));
   out.table("References", {"quantity", "unit", "first station", "last station", "1 sigma", "source"}, rows);
   if (!f.declination_known) out.notice("There is no declination: every azimuth of this page is magnetic.", "open");
+  if (!f.declination_note.empty()) out.notice("Declination: " + f.declination_note + ".", "open");
   const survey::CheckSettings& checks = r.settings.station.checks;
   out.table("Limits", {"what", "value"},
             {{"noise of a station's accelerometer means, mg", fmt::format("{:.3g}", r.noise_mps2 / kMg_mps2)},

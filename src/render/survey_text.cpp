@@ -30,6 +30,7 @@ std::string references(const SurveyReport& r) {
                        deg_from_rad(total_sigma(f.declination_rad_sigma)));
   else
     out += "Declination: not known; azimuths are magnetic\n";
+  if (!f.declination_note.empty()) out += "Declination: " + f.declination_note + "\n";
   if (r.settings.station.convergence.known)
     out += fmt::format("Convergence: {:.2f} deg from true to grid north\n",
                        deg_from_rad(r.settings.station.convergence.rad));
@@ -73,7 +74,11 @@ std::string survey_text(const SurveyReport& r) {
     out += fmt::format(", false alarms of a check {:.2g}", r.settings.station.checks.false_alarm);
   out += fmt::format(". Protection levels at a risk of {:.2g}.\n\n", r.survey.integrity_risk);
   out += fmt::format("Angles in degrees, azimuths from {} north\n", to_string(r.survey.north));
-  out += station_lines(r) + "\n";
+  out += station_lines(r);
+  const std::string flags = flag_words(r.survey);
+  if (!flags.empty()) out += "Flags: " + flags + "\n";
+  for (const survey::SaturatedChannel& one : r.survey.saturated) out += one.text() + "\n";
+  out += "\n";
   if (r.survey.tests) {
     out += "Error tests of all stations together\n";
     out += test_line("gravity", r.survey.tests->gravity, kMg_mps2, "mg", r);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -25,6 +27,21 @@ std::string survey_degrees(const OrUndefined<Angle>& angle) {
 
 std::string survey_level(const OrUndefined<Angle>& angle, double risk) {
   return angle ? fmt::format("{:.2f}", deg_from_rad(survey::protection_level_rad(*angle, risk))) : "-";
+}
+
+std::string flag_words(const survey::Survey& found) {
+  constexpr std::pair<char, const char*> kMeanings[] = {
+      {'N', "a number that is not finite"},      {'G', "gravity failed its check"},
+      {'B', "the field failed its check"},       {'D', "the dip failed its check"},
+      {'V', "too near vertical for an azimuth"}, {'H', "no horizontal field to speak of, so no azimuth"}};
+  std::string out;
+  for (const auto& [letter, meaning] : kMeanings) {
+    const char flag = letter;
+    const bool found_one = std::any_of(found.stations.begin(), found.stations.end(),
+                                       [flag](const auto& s) { return s.flags().find(flag) != std::string::npos; });
+    if (found_one) out += fmt::format("{}{} {}", out.empty() ? "" : "; ", letter, meaning);
+  }
+  return out;
 }
 
 std::string error_test_words(const survey::ErrorTest& test, double unit, const char* name,

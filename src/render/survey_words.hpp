@@ -17,6 +17,8 @@ double total_sigma(const geomagnetic::Sigma& sigma);
 /// Degrees with two decimals, "-" where there is no angle. An azimuth of 360.00 is 0.00.
 std::string survey_degrees(const survey::OrUndefined<survey::Angle>& angle);
 std::string survey_level(const survey::OrUndefined<survey::Angle>& angle, double risk);
+/// "V too near vertical for an azimuth", of the flags that stations have; empty where none has one.
+std::string flag_words(const survey::Survey& found);
 /// "passed", or what each part of the test found. `unit` is what figures are divided by, `name` what they are in then.
 std::string error_test_words(const survey::ErrorTest& test, double unit, const char* name, const survey::Survey& found);
 /// What became of the axial interference; empty where nobody asked.

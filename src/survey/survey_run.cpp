@@ -56,6 +56,7 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
              {},
              {},
              {},
+             {},
              {}};
   ErrorTestSettings tests;
   tests.tool = settings.station.tool;
@@ -67,8 +68,10 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
   if (settings.correct_axial) out.axial = estimate_axial_interference(stations, settings.station.tool);
   const bool correct = out.axial && out.axial->has_value();
   std::vector<PathStation> path;
+  std::vector<Measurement> measured;
   for (std::size_t k = 0; k < stations.size(); ++k) {
     const ReferencedStation& at = stations[k];
+    measured.push_back(at.measured);
     out.stations.push_back(correct
                                ? judge_corrected(corrected(at.measured, **out.axial), at.reference, settings.station)
                                : judge_station(at.measured, at.reference, settings.station));
@@ -77,6 +80,7 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
       out.on_path.push_back(k);
     }
   }
+  out.saturated = saturated_channels(measured, out.stations);
   out.path = minimum_curvature(path);
   if (!out.path) out.on_path.clear();
   return out;

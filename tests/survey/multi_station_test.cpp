@@ -74,6 +74,7 @@ TEST(MultiStation, FindsTheInterferenceOfTheDrillString) {
   }
 }
 
+// Negative: REQ-236
 TEST(MultiStation, DoesNotTakeAnErrorOfTheReferenceForInterference) {
   // The field is 3 sigma from the reference, in length and in dip: the estimate stays within its own sigma of nothing.
   ToolRun run;
@@ -85,6 +86,7 @@ TEST(MultiStation, DoesNotTakeAnErrorOfTheReferenceForInterference) {
   EXPECT_GT(found->field_offset_tesla, 200e-9);
 }
 
+// Negative: REQ-236
 TEST(MultiStation, RefusesInterferenceWhereTheHoleDoesNotTurn) {
   // A tangent: one inclination, one azimuth, however many stations and toolfaces.
   ToolRun run;
@@ -119,6 +121,7 @@ TEST(MultiStation, FindsSixBiasesAtScatteredAttitudes) {
   }
 }
 
+// Verifies: REQ-236
 TEST(MultiStation, ErrorsAreAsLargeAsStated) {
   // 300 tools with errors drawn as stated, references too: squares of value over sigma, within four sigma of counting.
   constexpr int kTools = 300;
@@ -242,6 +245,7 @@ TEST(MultiStation, CorrectionTakesTheErrorOffTheAzimuth) {
   EXPECT_EQ(after.measured.random, last.measured.random);
 }
 
+// Verifies: REQ-236
 RC_GTEST_PROP(MultiStationLaw, WithoutNoiseTheErrorsComeBack, ()) {
   ToolRun run;
   run.noisy = false;

@@ -7,6 +7,7 @@
 #include "plumb/survey/error_tests.hpp"
 #include "plumb/survey/multi_station.hpp"
 #include "plumb/survey/path.hpp"
+#include "plumb/survey/saturation.hpp"
 #include "plumb/survey/wiring.hpp"
 
 namespace plumb {
@@ -31,6 +32,7 @@ struct Survey {
   /// Positions of the stations that were accepted; the others are left out.
   io::FileExpected<std::vector<PathPoint>> path;
   std::vector<std::size_t> on_path;  ///< number of the station of each position
+  std::vector<SaturatedChannel> saturated;
 };
 
 /// Stations in the order of their depth.
