@@ -62,6 +62,9 @@ void survey_of(const std::vector<survey::Measurement>& stations, bool axial) {
   }
   demand(found.path.has_value() || !found.path.error().what.empty(), "no path says why");
   if (found.path) {
+    demand(found.position_covariance.size() == found.path->size(), "a covariance a position");
+    for (const survey::PositionCovariance& c : found.position_covariance)
+      demand(c[0] >= 0.0 && c[4] >= 0.0 && c[8] >= 0.0, "variances");
     for (const survey::PathPoint& p : *found.path)
       demand(std::isfinite(p.north_m + p.east_m + p.tvd_m + p.dogleg_deg_per_30m), "a position is finite");
   }

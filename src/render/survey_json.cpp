@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/printable.hpp"
 #include "plumb/render/survey_report.hpp"
@@ -77,12 +79,19 @@ Json saturated_json(const survey::Survey& s) {
 Json path_json(const survey::Survey& s) {
   Json out = Json::array();
   if (!s.path) return out;
-  for (const survey::PathPoint& p : *s.path)
+  for (std::size_t k = 0; k < s.path->size(); ++k) {
+    const survey::PathPoint& p = (*s.path)[k];
+    const survey::PositionCovariance& c = s.position_covariance[k];
     out.push_back(object({{"md_m", p.md_m},
                           {"north_m", p.north_m},
                           {"east_m", p.east_m},
                           {"tvd_m", p.tvd_m},
-                          {"dogleg_deg_per_30m", p.dogleg_deg_per_30m}}));
+                          {"dogleg_deg_per_30m", p.dogleg_deg_per_30m},
+                          {"sigma_north_m", std::sqrt(c[0])},
+                          {"sigma_east_m", std::sqrt(c[4])},
+                          {"sigma_tvd_m", std::sqrt(c[8])},
+                          {"covariance_m2", c}}));
+  }
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
+#include <cmath>
 
 #include "html_view.hpp"
 #include "plumb/io/printable.hpp"
@@ -117,7 +117,8 @@ Section verdict_section(const SurveyReport& r) {
   std::string end = "none", below = "no path";
   if (found.path) {
     const survey::PathPoint& at = found.path->back();
-    end = fmt::format("{:.1f} m N, {:.1f} m E", at.north_m, at.east_m);
+    end = fmt::format("{:.1f} m {}, {:.1f} m {}", std::fabs(at.north_m), at.north_m < 0.0 ? "S" : "N",
+                      std::fabs(at.east_m), at.east_m < 0.0 ? "W" : "E");
     below = fmt::format("{} north, {:.1f} m true vertical depth", to_string(found.north), at.tvd_m);
   }
   out.figures({{"Accepted", std::to_string(count_of(found, StationStatus::accepted)), "all three checks passed"},
@@ -228,12 +229,21 @@ Section path_section(const SurveyReport& r, const PagePictures& pictures) {
                 "The path of the hole from above, and in a vertical section",
                 "Both axes of a panel have one scale. The section lies in the direction of the last station.");
   ViewRows rows;
-  for (const survey::PathPoint& p : *r.survey.path)
+  for (std::size_t k = 0; k < r.survey.path->size(); ++k) {
+    const survey::PathPoint& p = (*r.survey.path)[k];
+    const auto sigma = [&](std::size_t at) {
+      return fmt::format("{:.2f}", std::sqrt(r.survey.position_covariance[k][at]));
+    };
     rows.push_back({fmt::format("{:.2f}", p.md_m), fmt::format("{:.2f}", p.tvd_m), fmt::format("{:.2f}", p.north_m),
-                    fmt::format("{:.2f}", p.east_m), fmt::format("{:.2f}", p.dogleg_deg_per_30m)});
+                    fmt::format("{:.2f}", p.east_m), fmt::format("{:.2f}", p.dogleg_deg_per_30m), sigma(0), sigma(4),
+                    sigma(8)});
+  }
   out.table("Positions",
-            {"MD, m", "TVD, m", fmt::format("{} north, m", to_string(r.survey.north)), "east, m", "dogleg, deg/30 m"},
-            rows, "The first station is the origin, as deep as it is along the hole.");
+            {"MD, m", "TVD, m", fmt::format("{} north, m", to_string(r.survey.north)), "east, m", "dogleg, deg/30 m",
+             "sigma north, m", "sigma east, m", "sigma TVD, m"},
+            rows,
+            "The first station is the origin, as deep as it is along the hole. Sigma: 1 sigma from the errors of "
+            "inclination and azimuth; errors of the measured depth and sag are not in it.");
   return out;
 }
 

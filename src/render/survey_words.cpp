@@ -75,10 +75,12 @@ std::string axial_words(const survey::Survey& found) {
 std::string path_words(const survey::Survey& found) {
   if (!found.path) return "Path: none: " + found.path.error().text();
   const survey::PathPoint& end = found.path->back();
+  const survey::PositionCovariance& c = found.position_covariance.back();
   return fmt::format(
       "Path of {} stations, minimum curvature from {} north: at {:.2f} m north {:.2f} m, east {:.2f} m, true vertical "
-      "depth {:.2f} m",
-      found.path->size(), to_string(found.north), end.md_m, end.north_m, end.east_m, end.tvd_m);
+      "depth {:.2f} m; 1 sigma {:.2f} m, {:.2f} m, {:.2f} m from the first",
+      found.path->size(), to_string(found.north), end.md_m, end.north_m, end.east_m, end.tvd_m, std::sqrt(c[0]),
+      std::sqrt(c[4]), std::sqrt(c[8]));
 }
 
 }  // namespace render

@@ -304,6 +304,22 @@ TEST(ErrorTests, NameTheKindAndTheStation) {
   EXPECT_TRUE(error_tests(run.of(build_up(70.0, 12)), {})->dip.one_passed());
 }
 
+/// A reading of 1e12 m/s^2: its shared error is so much larger than its random one that the inverse rounds to nothing.
+TEST(ErrorTests, OfAnAbsurdStationAreFiniteAndNameIt) {
+  std::vector<ReferencedStation> stations;
+  for (int k = 0; k < 6; ++k) {
+    Measurement m = station_of({0.1 + 0.2 * k, 1.0, 1.7 * k}, World{}, 30.0 * k);
+    m.random = independent_covariance(1e-3, 20e-9);
+    stations.push_back({m, reference_of(World{})});
+  }
+  stations[3].measured.gravity_mps2[1] = 7.8e11;
+  const auto tests = error_tests(stations, {});
+  ASSERT_TRUE(tests.has_value());
+  for (const double w : tests->gravity.normalised) EXPECT_TRUE(std::isfinite(w));
+  EXPECT_TRUE(std::isfinite(tests->gravity.mean + tests->gravity.mean_limit));
+  EXPECT_FALSE(tests->gravity.passed());
+}
+
 TEST(ErrorTests, RefuseWhatCannotBeTested) {
   ToolRun run;
   EXPECT_FALSE(error_tests({}, {}).has_value());

@@ -332,7 +332,7 @@ RC_GTEST_PROP(StationFileLaw, AnyNumbersAreASurveyOrAnError, ()) {
     if (one.true_azimuth) RC_ASSERT(std::isfinite(one.true_azimuth->angle.rad + one.true_azimuth->angle.sigma_rad));
   }
   std::istringstream lines(survey_csv(s));
-  for (std::string line; std::getline(lines, line);) RC_ASSERT(cells(line).size() == 24U);
+  for (std::string line; std::getline(lines, line);) RC_ASSERT(cells(line).size() == 27U);
 }
 
 }  // namespace
