@@ -47,9 +47,12 @@ const char* to_string(Concern concern) noexcept {
 
 Judgement judge_gravity(const GravityReference& gravity) noexcept {
   const double g = gravity.g_mps2;
+  const bool magnetic = gravity.model == GravityModel::magnetic;
+  const double least = magnetic ? kLeastField : kEarthGravityMin_mps2;
+  const double most = magnetic ? kMostField : kEarthGravityMax_mps2;
   // Written so that a NaN is refused too.
-  if (!(g >= kEarthGravityMin_mps2)) return refuse(Concern::gravity, Errc::implausible, -1, g, kEarthGravityMin_mps2);
-  if (!(g <= kEarthGravityMax_mps2)) return refuse(Concern::gravity, Errc::implausible, -1, g, kEarthGravityMax_mps2);
+  if (!(g >= least)) return refuse(Concern::gravity, Errc::implausible, -1, g, least);
+  if (!(g <= most)) return refuse(Concern::gravity, Errc::implausible, -1, g, most);
   return {};
 }
 

@@ -157,7 +157,7 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   plan.seed = static_cast<std::uint64_t>(seed);
   plan.sweep = top.choice("cells", {"sweep", "drawn"}, 0) == 0;
   const bool within_grade = top.choice("within_grade", {"no", "yes"}, 0) == 1;
-  const MonitorConfig monitor = io::read_monitor(root, path);
+  const MonitorConfig monitor = io::read_monitor({root, path, io::FieldKind::gravity, ""});
   if (monitor.mode != MonitorMode::plumb) {
     top.fail(top.line_of("monitor"), "monitor", "has mode = \"paper\", and a campaign runs plumb's own monitor",
              "set mode = \"plumb\", or remove the key");
@@ -171,7 +171,7 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   read_run(top, monitor, plan);
   const std::vector<double> gravity = read_gravity(top, plan);
   read_calibration(top, plan);
-  plan.tools = read_tools(top, monitor, io::read_usual_stability(root, path));
+  plan.tools = read_tools(top, monitor, io::read_usual_stability({root, path, io::FieldKind::gravity, ""}));
   plan.attitudes = read_attitudes(top);
   lay_cells(top, read_faults(top), gravity, within_grade, plan);
   out.expect = read_expectations(top);

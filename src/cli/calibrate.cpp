@@ -16,6 +16,7 @@
 #include "plumb/session/calibration_pipeline.hpp"
 #include "plumb/session/choice_texts.hpp"
 #include "plumb/session/days_since.hpp"
+#include "read_array.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -195,7 +196,7 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb calibrate", Serves::lengths);
   if (!array) return report(array.error());
   take_known_attitudes(options.known_attitudes, *array);
   if (options.rolls && array->input.roll_group_column.empty()) {

@@ -1,4 +1,5 @@
 #include "calibrate_known.hpp"
+#include "read_array.hpp"
 
 #include "plumb/coefficients/calibration_export.hpp"
 #include "plumb/io/output_file.hpp"
@@ -100,7 +101,7 @@ io::ExitCode run_calibrate_from(const KnownCoefficientOptions& options, const Kn
   std::vector<NamedFile> to_read = {{"--array", files.array}};
   for (const std::string& path : options.from) to_read.push_back({"--from", path});
   if (const std::optional<io::FileError> clash = overwritten({{"--out", files.out}}, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(files.array);
+  const io::FileExpected<io::ArrayFile> array = read_array(files.array, "plumb calibrate --from", Serves::gravity);
   if (!array) return report(array.error());
   const auto read = files_of(options, *array);
   if (!read) return report(read.error());
@@ -117,7 +118,7 @@ io::ExitCode run_calibrate_from(const KnownCoefficientOptions& options, const Kn
 io::ExitCode run_calibrate_export(const KnownCoefficientOptions& options, const KnownCoefficientFiles& files) {
   const std::vector<NamedFile> to_read = {{"--array", files.array}, {"--calibration", files.calibration}};
   if (const std::optional<io::FileError> clash = overwritten({{"--out", files.out}}, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(files.array);
+  const io::FileExpected<io::ArrayFile> array = read_array(files.array, "plumb calibrate --from", Serves::gravity);
   if (!array) return report(array.error());
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(files.calibration, *array);
   if (!calibration) return report(calibration.error());

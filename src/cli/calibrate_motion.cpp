@@ -1,4 +1,5 @@
 #include "calibrate_motion.hpp"
+#include "read_array.hpp"
 
 #include "plumb/render/motion_fit_report.hpp"
 #include "plumb/session/days_since.hpp"
@@ -12,7 +13,7 @@ io::ExitCode run_calibrate_motion(const CalibrateMotionOptions& options) {
   const std::vector<NamedFile> to_read = {
       {"--array", options.array}, {"--calibration", options.calibration}, {"--motion", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb calibrate --motion", Serves::gravity);
   if (!array) return report(array.error());
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
   if (!calibration) return report(calibration.error());

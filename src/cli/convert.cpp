@@ -7,6 +7,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/io/log_writer.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "read_array.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -70,7 +71,7 @@ io::ExitCode run_convert(const ConvertOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb convert", Serves::all);
   if (!array) return report(array.error());
   watch_interrupts();
   const io::FileExpected<io::LogStatistics> done = convert(options, *array);

@@ -17,6 +17,7 @@
 #include "plumb/render/geometry_plot.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
+#include "read_array.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -126,7 +127,7 @@ io::FileExpected<void> name_subject(const GeometryOptions& options, GeometrySubj
 }
 
 io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubject& subject) {
-  io::FileExpected<io::ArrayFile> file = io::read_array_file(options.array);
+  io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb geometry", Serves::gravity);
   if (!file) return tl::unexpected<io::FileError>(file.error());
   subject.name = file->name;
   subject.array = file->array;

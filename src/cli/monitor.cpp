@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "monitor_groups.hpp"
 #include "monitor_motion.hpp"
 #include "monitor_options.hpp"
 #include "monitor_outputs.hpp"
@@ -17,6 +18,7 @@
 #include "plumb/session/days_since.hpp"
 #include "plumb/session/incident_recorder.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
+#include "read_array.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -130,7 +132,8 @@ std::string incidents_text(const MonitorOptions& options, const Outputs& outputs
 /// there is one, is stepped in its place.
 template <class Monitor>
 io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Monitor& monitor, double days,
-                   MonitorMotion& motion, const Past& past = {}, stepping::Stepper* stepper = nullptr) {
+                   MonitorMotion& motion, session::VerdictSink* beside, const Past& past = {},
+                   stepping::Stepper* stepper = nullptr) {
   const SensorArray& sensors = monitor.array();
   std::vector<scenario::HostRequest> requests;
   for (const std::string& text : options.host) {
@@ -144,6 +147,7 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   if (opened) opened = motion.open(options, array, outputs);
   if (opened) opened = open_incidents(options, array, motion, outputs);
   if (!opened) return report(opened.error());
+  if (beside != nullptr) outputs.sinks.push_back(beside);
   watch_interrupts();
   session::LogSpec log = options.log;
   log.hash = !options.report.empty();
@@ -204,7 +208,7 @@ io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& arr
 
 /// The run after a recorded roll test, from which the monitor goes on as it would from a snapshot.
 io::ExitCode watch_after_roll_test(const MonitorOptions& options, const io::ArrayFile& array, HealthMonitor& monitor,
-                                   double days, MonitorMotion& motion) {
+                                   double days, MonitorMotion& motion, session::VerdictSink* beside) {
   const io::FileExpected<session::RollTest> test =
       session::play_roll_test(monitor, array, {options.roll_test, options.log.on_bad_row});
   if (!test) return report(test.error());
@@ -214,11 +218,12 @@ io::ExitCode watch_after_roll_test(const MonitorOptions& options, const io::Arra
   }
   print_error(render::roll_test_text(*test, options.roll_test, monitor, array.output_frame));
   const io::Json told = options.json ? render::roll_test_json(*test, monitor, array.output_frame) : io::Json();
-  return watch(options, array, monitor, days, motion, Past{"the roll test", told});
+  return watch(options, array, monitor, days, motion, beside, Past{"the roll test", told});
 }
 
 /// --calibrate-first: the datasheet in the array file is all that is known.
-io::ExitCode run_without_calibration(const MonitorOptions& options, const io::ArrayFile& array) {
+io::ExitCode run_without_calibration(const MonitorOptions& options, const io::ArrayFile& array,
+                                     session::VerdictSink* beside) {
   if (array.monitor.mode == MonitorMode::paper) {
     return report(
         io::FileError{"--calibrate-first", 0, "", "the paper's algorithm needs a calibration with the paper's fits",
@@ -232,7 +237,7 @@ io::ExitCode run_without_calibration(const MonitorOptions& options, const io::Ar
   if (!monitor) return report(monitor.error());
   io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options, aligned, nullptr, 0.0);
   if (!motion) return report(motion.error());
-  return watch(options, array, **monitor, 0.0, *motion, past_of(options),
+  return watch(options, array, **monitor, 0.0, *motion, beside, past_of(options),
                stepper_of(options, aligned, nullptr, 0.0).get());
 }
 
@@ -244,7 +249,9 @@ void warn_of_stations(const io::ArrayFile& array) {
                   array.path, array.monitor.window));
 }
 
-io::ExitCode run_monitor(const MonitorOptions& options) {
+}  // namespace
+
+io::ExitCode monitor_array(const MonitorOptions& options, session::VerdictSink* beside) {
   if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
@@ -261,12 +268,12 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
                                           {"--log", options.log.path},
                                           {"--roll-test", options.roll_test}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(options.array);
+  const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb monitor", Serves::lengths);
   if (!array) return report(array.error());
   if (options.calibrate_first) {
     if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
     warn_of_stations(*array);
-    return run_without_calibration(options, *array);
+    return run_without_calibration(options, *array, beside);
   }
   const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(options.calibration, *array);
   if (!calibration) return report(calibration.error());
@@ -287,26 +294,25 @@ io::ExitCode run_monitor(const MonitorOptions& options) {
     const auto monitor = session::make_paper_monitor(*array, *calibration, options.calibration);
     if (!monitor) return report(monitor.error());
     if (options.limits) return report(limits_of_paper(*array));
-    return watch(options, *array, **monitor, *days, *motion);
+    return watch(options, *array, **monitor, *days, *motion, beside);
   }
   const auto monitor = options.snapshot_in.empty()
                            ? session::make_monitor(aligned, &calibration->calibration, *days)
                            : session::restore_monitor(aligned, &calibration->calibration, options.snapshot_in, *days);
   if (!monitor) return report(monitor.error());
   if (options.limits) return tell_limits(options, *array, (*monitor)->array(), *days);
-  if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days, *motion);
+  if (!options.roll_test.empty()) return watch_after_roll_test(options, *array, **monitor, *days, *motion, beside);
   const auto stepper = stepper_of(options, aligned, &calibration->calibration, *days);
-  return watch(options, *array, **monitor, *days, *motion, past_of(options), stepper.get());
+  return watch(options, *array, **monitor, *days, *motion, beside, past_of(options), stepper.get());
 }
-
-}  // namespace
 
 Command add_monitor(const Options& tool) {
   auto options = std::make_shared<MonitorOptions>();
   const Options command =
       tool.add_command("monitor", "monitor a log or a live stream: which sensors are valid, which way is down");
   add_monitor_options(command, *options);
-  return {command, kMonitorAbout, [options] { return run_monitor(*options); }};
+  return {command, kMonitorAbout,
+          [options] { return options->groups.empty() ? monitor_array(*options, nullptr) : monitor_tool(*options); }};
 }
 
 }  // namespace cli

@@ -47,6 +47,9 @@ constexpr const char* kMonitorNotes =
     "--incidents keeps the rows before and after every change, each incident in a file that is a log again, and a "
     "list\n"
     "of them in incidents.jsonl: `plumb monitor --log DIR/incident-0001.csv` plays it.\n"
+    "--group watches the magnetometers or the gyros of the tool too, each group with its table and summary and with\n"
+    "files of its own (events-mag.jsonl), and holds the direction of the field against that of gravity, by the dip;\n"
+    "exit code 6 where they disagree. --array TOOL.toml#mag watches one group alone.\n"
     "--limits reads no log: it prints the limits of the monitor with this array file and calibration, how many\n"
     "samples a block can use, and which faults a given delta_f misses.\n"
     "--json prints one JSON object per change, then one with the key \"summary\".\n"
@@ -109,6 +112,12 @@ void add_monitor_options(const Options& command, MonitorOptions& options) {
   command
       .add_option("--host", options.host, "a request of the host to the monitor, as below; may be given several times")
       .type_name("REQUEST");
+  command
+      .add_option(
+          "--group", options.groups,
+          "watch this [[group]] of the array file as well, by its own calibration; of gyros without one; may be "
+          "given several times")
+      .type_name("NAME[=CAL.json]");
   add_bad_row_option(command, options.log.on_bad_row);
   command
       .add_option("--date", options.date,

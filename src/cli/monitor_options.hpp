@@ -29,6 +29,7 @@ struct MonitorOptions {
   std::string roll_test;
   std::string snapshot_out;
   std::vector<std::string> host;
+  std::vector<std::string> groups;  ///< "mag=mag.json", "gyros"
   bool every_sample = false;
   bool limits = false;
   bool json = false;

@@ -34,7 +34,7 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
     io::FileExpected<io::OutputFile> file = io::OutputFile::create(options.verdicts, io::OutputFile::Mode::stream);
     if (!file) return tl::unexpected<io::FileError>(file.error());
     out.sinks.push_back(
-        &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live));
+        &out.verdicts.emplace(*std::move(file), sensors, array.output_frame, options.every_sample, live, array.field));
   }
   if (!options.report.empty()) {
     io::FileExpected<std::unique_ptr<HealthReport>> report = HealthReport::create(options, array, sensors, days);

@@ -9,11 +9,13 @@
 #include "plot_files.hpp"
 #include "plumb/findings/geometry_study.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/io/field_json.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/basis_json.hpp"
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/detection_sizes.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/health_page.hpp"
 #include "plumb/render/identity.hpp"
 #include "plumb/render/sensor_notes.hpp"
@@ -166,10 +168,13 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const
                   {"log", io::object({{"rows", run.log.rows}, {"rows_bad", run.log.rows_bad}, {"ended", ended}})},
                   {"command", command_of(options_)}});
   report["run"] = io::object({{"time", now_utc()}, {"host", host_name()}});
-  io::FileExpected<void> done = data_.write(report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  io::FileExpected<void> done =
+      data_.write(io::in_field_units(report, array_.field).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   if (done) done = data_.commit();
   const std::string data_name = fs::path(health_data_path(options_.report)).filename().string();
-  if (done) done = page_.write(render::health_html(report, pictures_of(report), data_name));
+  const Json shown = io::with_fine_as_mg0(report, array_.field);
+  if (done)
+    done = page_.write(render::in_field_words(render::health_html(shown, pictures_of(shown), data_name), array_.field));
   if (done) done = page_.commit();
   return done;
 }

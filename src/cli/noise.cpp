@@ -15,6 +15,7 @@
 #include "plumb/noise/axis_study.hpp"
 #include "plumb/noise/load_log.hpp"
 #include "plumb/render/noise_report.hpp"
+#include "read_array.hpp"
 #include "tool.hpp"
 
 namespace plumb {
@@ -141,7 +142,7 @@ io::ExitCode run_noise(const NoiseOptions& options) {
     return report(*clash);
   std::optional<io::ArrayFile> array;
   if (!options.array.empty()) {
-    io::FileExpected<io::ArrayFile> file = io::read_array_file(options.array);
+    io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb noise", Serves::all);
     if (!file) return report(file.error());
     array = *std::move(file);
   }

@@ -11,6 +11,7 @@
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/scenario/fault_text.hpp"
 #include "plumb/session/flight_play.hpp"
+#include "read_array.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -101,7 +102,7 @@ std::optional<io::FileError> flight_misuse(const FlightOptions& options) {
 io::ExitCode run_flight(const FlightOptions& options, const FlightFiles& files) {
   const std::vector<NamedFile> to_write = {{"--out", files.out}, {"--truth", files.truth}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"ARRAY", files.array}})) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = io::read_array_file(files.array);
+  const io::FileExpected<io::ArrayFile> array = read_array(files.array, "plumb simulate", Serves::gravity);
   if (!array) return report(array.error());
   const io::FileExpected<std::vector<scenario::Fault>> faults = faults_of(options.faults, *array);
   if (!faults) return report(faults.error());

@@ -5,6 +5,7 @@
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/change.hpp"
 #include "plumb/render/identity.hpp"
+#include "read_array.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -36,7 +37,7 @@ io::FileExpected<VerifyInputs> read_inputs(const VerifyOptions& options, Verific
   VerifyInputs inputs;
   std::optional<io::FileError> error;
   const auto fail = [&error] { return tl::unexpected<io::FileError>(*error); };
-  if (!take(io::read_array_file(options.array), out.array, error)) return fail();
+  if (!take(read_array(options.array, "plumb verify", Serves::gravity), out.array, error)) return fail();
   take_known_attitudes(options.known_attitudes, out.array);
   inputs.limits = verification::limits_of(out.array);
   if (!options.limits.empty() && !take(verification::read_limits(options.limits, out.array), inputs.limits, error))

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "plumb/array/geometry.hpp"
 
@@ -22,7 +24,15 @@ bool near_one(double factor) { return factor > 1.0 / kNear && factor < kNear; }
 const char* const kVoltages[] = {"V", "mV", "uV"};
 const char* const kAccelerations[] = {"g0", "m/s^2", "mg0", "ug0", "mm/s^2", "ft/s^2", "Gal", "mGal"};
 
-double base_of(const char* unit) { return io::parse_raw_unit(unit)->base_per_unit; }
+const char* const kFields[] = {"nT", "uT", "mG", "G", "mT", "T"};
+
+double base_of(const char* unit, io::FieldKind field) { return io::parse_raw_unit(unit, field)->base_per_unit; }
+
+/// The units in which such a vector is logged.
+std::vector<const char*> log_units(io::FieldKind field) {
+  if (field == io::FieldKind::magnetic) return {std::begin(kFields), std::end(kFields)};
+  return {std::begin(kAccelerations), std::end(kAccelerations)};
+}
 
 }  // namespace
 
@@ -53,7 +63,7 @@ UnitGuess likely_unit(const io::ArrayFile& array, double factor) {
   const io::RawUnit& stated = array.input.unit;
   if (stated.kind == io::RawUnit::Kind::voltage) {
     for (const char* unit : kVoltages) {
-      if (near_one(factor * base_of(unit) / stated.base_per_unit)) return {Kind::unit, unit};
+      if (near_one(factor * base_of(unit, array.field) / stated.base_per_unit)) return {Kind::unit, unit};
     }
   }
   // What the numbers would be were they accelerations already; the scales are about alike.
@@ -62,8 +72,8 @@ UnitGuess likely_unit(const io::ArrayFile& array, double factor) {
     scale += std::fabs(array.datasheet.sensor[static_cast<std::size_t>(i)].coefficients.scale[0]) / array.array.size();
   }
   const double numbers = factor * array.gravity.g_mps2 * scale;
-  for (const char* unit : kAccelerations) {
-    if (near_one(numbers * base_of(unit) / array.gravity.g_mps2)) return {Kind::unit, unit};
+  for (const char* unit : log_units(array.field)) {
+    if (near_one(numbers * base_of(unit, array.field) / array.gravity.g_mps2)) return {Kind::unit, unit};
   }
   if (stated.kind != io::RawUnit::Kind::count && numbers > kCounts) return {Kind::counts};
   if (stated.kind == io::RawUnit::Kind::count && numbers < kCounts) return {Kind::volts};

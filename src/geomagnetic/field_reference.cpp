@@ -110,6 +110,27 @@ io::FileExpected<FieldReference> stated_reference(const StatedField& stated) {
   return out;
 }
 
+io::FileExpected<io::MagneticReference> lookup(const io::MagneticPlace& place) {
+  const auto refused = [](io::FileError error, const char* key) {
+    error.field = key;
+    return tl::unexpected<io::FileError>(std::move(error));
+  };
+  const io::FileExpected<double> year = decimal_year(place.date);
+  if (!year) return refused(year.error(), "date");
+  const io::FileExpected<EarthField> field =
+      field_at(wmm2025(), {place.latitude_deg, place.longitude_deg, place.height_m}, *year);
+  if (!field) return tl::unexpected<io::FileError>(field.error());
+  const FieldReference found = reference_of(*field, iscwsa_errors());
+  io::MagneticReference out;
+  out.source = found.source;
+  out.total_ut = 1e6 * found.total_tesla;
+  out.total_sigma_ut = 1e6 * std::hypot(found.total_tesla_sigma.common, found.total_tesla_sigma.random);
+  out.dip_known = true;
+  out.dip_rad = found.dip_rad;
+  out.dip_sigma_rad = std::hypot(found.dip_rad_sigma.common, found.dip_rad_sigma.random);
+  return out;
+}
+
 io::FileExpected<double> parse_field(std::string_view text) {
   struct Unit {
     std::string_view name;

@@ -90,11 +90,15 @@ const char* to_string(GravityModel model) noexcept {
     case GravityModel::paper: return "paper";
     case GravityModel::value: return "value";
     case GravityModel::table: return "table";
+    case GravityModel::magnetic: return "magnetic";
   }
   return "unknown";
 }
 
-bool GravityReference::plausible() const noexcept { return given_gravity(g_mps2, sigma_mps2).has_value(); }
+bool GravityReference::plausible() const noexcept {
+  return (model == GravityModel::magnetic ? given_field(g_mps2, sigma_mps2) : given_gravity(g_mps2, sigma_mps2))
+      .has_value();
+}
 
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept {
   const Error e = first_of<5>(
@@ -120,6 +124,13 @@ Expected<GravityReference> given_gravity(double g_mps2, double sigma_mps2) noexc
   const Error e = first_of<2>({check(g_mps2, kValue, 9.5, 10.2), check(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
   if (e.code != Errc::ok) return tl::unexpected<Error>(e);
   return GravityReference{g_mps2, sigma_mps2, GravityModel::value};
+}
+
+Expected<GravityReference> given_field(double length, double sigma) noexcept {
+  const Error e =
+      first_of<2>({check(length, kValue, kLeastField, kMostField), check(sigma, kSigma, 0.0, kMaxSigma_mps2)});
+  if (e.code != Errc::ok) return tl::unexpected<Error>(e);
+  return GravityReference{length, sigma, GravityModel::magnetic};
 }
 
 Expected<GravityReference> table_gravity(const double* depth_m, const double* g_mps2, int count, double at_depth_m,

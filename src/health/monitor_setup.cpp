@@ -70,7 +70,8 @@ Expected<void> sound_prior(const SensorArray& array, int i) noexcept {
 }  // namespace
 
 Expected<void> plausible(const GravityReference& gravity) noexcept {
-  const auto given = given_gravity(gravity.g_mps2, gravity.sigma_mps2);
+  const auto given = gravity.model == GravityModel::magnetic ? given_field(gravity.g_mps2, gravity.sigma_mps2)
+                                                             : given_gravity(gravity.g_mps2, gravity.sigma_mps2);
   if (given) return {};
   const Error& e = given.error();
   return fail(Errc::implausible_gravity, e.index == 0 ? 0 : 1, e.value, e.limit);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <utility>
 
 #include "array_parts.hpp"
 #include "plumb/io/hash.hpp"
@@ -17,8 +18,8 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_sections() {
-  static const std::vector<std::string> names = {"name",   "gravity", "monitor", "input", "output",
-                                                 "motion", "gyro",    "clock",   "sensor"};
+  static const std::vector<std::string> names = {"name",   "gravity", "monitor", "input",  "output",
+                                                 "motion", "gyro",    "clock",   "sensor", "group"};
   return names;
 }
 
@@ -180,23 +181,42 @@ Mat3 read_frame(const TomlNode& root, const std::string& file) {
   return out;
 }
 
+ArrayFile chosen(std::vector<ArrayFile>& groups, const std::string& name, const std::string& path) {
+  std::string known;
+  for (ArrayFile& one : groups) {
+    if (one.group == name) return std::move(one);
+    known += (known.empty() ? "" : ", ") + path + "#" + one.group;
+  }
+  if (groups.empty())
+    throw Refusal(FileError{path, 0, "group", "has no group " + in_quotes(name) + ", nor any other",
+                            "leave out #" + name + " for its accelerometers, or add a [[group]]"});
+  throw Refusal(FileError{path, 0, "group",
+                          name.empty() ? "the file describes no accelerometer" : "has no group " + in_quotes(name),
+                          "name one of its groups: " + known});
+}
+
 }  // namespace
 
-ArrayFile array_of(const TomlNode& root, const std::string& text, const std::string& path) {
+ArrayFile array_of(const TomlNode& root, const std::string& text, const std::string& path, const FieldLookup& lookup,
+                   const std::string& group) {
   const TomlTable top(root, path, "", known_sections());
   ArrayFile out;
   out.path = path;
   out.text = text;
   const std::string file_name = last_part(path);
   out.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
-  out.gravity = read_gravity(root, path);
-  out.monitor = read_monitor(root, path);
   out.input = read_input(root, path, out.datasheet.reads);
-  out.motion = read_motion(root, path, out.input);
-  read_sensors(root, path, out);
-  read_clocks(root, path, out);
   out.output_frame = read_frame(root, path);
+  std::vector<ArrayFile> groups = read_groups(root, out, lookup);
+  if (!group.empty() || (root.find("sensor") == nullptr && !groups.empty())) return chosen(groups, group, path);
+  const GroupNode own{root, path, FieldKind::gravity, ""};
+  out.gravity = read_gravity(root, path);
+  out.monitor = read_monitor(own);
+  out.motion = read_motion(root, path, out.input);
+  read_sensors(own, out);
+  read_clocks(root, path, out);
   out.fingerprint = fingerprint_of(out.datasheet);
+  out.groups = std::move(groups);
   return out;
 }
 
@@ -245,11 +265,12 @@ InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads
   return input;
 }
 
-FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path) {
+FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path, const FieldLookup& lookup,
+                                         const std::string& group) {
   try {
     const FileExpected<TomlNode> root = parse_toml(text, path);
     if (!root) return tl::unexpected<FileError>(root.error());
-    return array_of(*root, text, path);
+    return array_of(*root, text, path, lookup, group);
   } catch (const Refusal& refusal) {
     return tl::unexpected<FileError>(refusal.error());
   } catch (const std::exception& error) {
@@ -258,10 +279,17 @@ FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::str
   }
 }
 
-FileExpected<ArrayFile> read_array_file(const std::string& path) {
-  const FileExpected<std::string> text = read_file(path);
+FileExpected<ArrayFile> read_array_file(const std::string& path, const FieldLookup& lookup) {
+  const std::size_t mark = path.rfind('#');
+  FileExpected<std::string> text = read_file(path);
+  if (text || mark == std::string::npos) {  // a file may have the sign in its name
+    if (!text) return tl::unexpected<FileError>(text.error());
+    return parse_array_text(*text, path, lookup);
+  }
+  const std::string file = path.substr(0, mark);
+  text = read_file(file);
   if (!text) return tl::unexpected<FileError>(text.error());
-  return parse_array_text(*text, path);
+  return parse_array_text(*text, file, lookup, path.substr(mark + 1));
 }
 
 SensorSet without_stability(const ArrayFile& array) noexcept {
@@ -281,8 +309,9 @@ Readings tolerance_mps2(const ArrayFile& array, double days_since_calibration) n
   return out;
 }
 
-std::uint64_t fingerprint_of(const Datasheet& datasheet) noexcept {
-  const char reads = datasheet.reads == Reads::gravity ? 'g' : 's';
+std::uint64_t fingerprint_of(const Datasheet& datasheet, FieldKind field) noexcept {
+  const char of_gravity = datasheet.reads == Reads::gravity ? 'g' : 's';
+  const char reads = field == FieldKind::gravity ? of_gravity : field == FieldKind::magnetic ? 'm' : 'r';
   std::uint64_t hash = fnv1a(&reads, 1);
   for (int i = 0; i < datasheet.size && i < kCapacity; ++i) {
     const DatasheetSensor& sensor = datasheet.sensor[static_cast<std::size_t>(i)];

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <vector>
 
 #include "array_parts.hpp"
@@ -47,6 +48,21 @@ const std::vector<std::string>& known_keys() {
   return names;
 }
 
+/// A vector that adds to that of the field and that no check can tell from it.
+const char* bound_key(FieldKind field) noexcept {
+  return field == FieldKind::magnetic ? "disturbance_bound" : "acceleration_bound";
+}
+
+const std::vector<std::string>& known_keys(FieldKind field) {
+  static const std::vector<std::string> magnetic = [] {
+    std::vector<std::string> names = known_keys();
+    std::replace(names.begin(), names.end(), std::string(bound_key(FieldKind::gravity)),
+                 std::string(bound_key(FieldKind::magnetic)));
+    return names;
+  }();
+  return field == FieldKind::magnetic ? magnetic : known_keys();
+}
+
 int whole(const TomlTable& table, const char* key, int fallback) {
   const std::int64_t value = table.integer(key, fallback);
   if (value < -1 || value > 1000000000) {
@@ -91,7 +107,7 @@ MonitorConfig filled(const TomlTable& table) {
   config.recalibrate_after_exclusion = table.choice("recalibrate", {"never", "after-exclusion"}, 0) == 1;
   config.isolation_timeout_blocks = whole(table, "isolation_timeout_blocks", config.isolation_timeout_blocks);
   config.acceleration_bound_mps2 =
-      table.quantity(Quantity::acceleration, "acceleration_bound", config.acceleration_bound_mps2);
+      table.quantity(Quantity::acceleration, bound_key(table.field_of()), config.acceleration_bound_mps2);
   const bool average = table.choice("alarm_form", {"every-tool", "average-tool"}, 0) == 1;
   config.alarm_form = average ? AlarmForm::average_tool : AlarmForm::every_tool;
   config.triple_false_alarm_rate =
@@ -104,8 +120,8 @@ MonitorConfig filled(const TomlTable& table) {
 }
 
 /// Unit in which MonitorConfig holds the field of a key, for messages.
-const char* unit_of(const std::string& key) noexcept {
-  if (key == "delta_f" || key == "acceleration_bound") return " m/s^2";
+std::string unit_of(const std::string& key, FieldKind field) {
+  if (key == "delta_f" || key == bound_key(field)) return std::string(" ") + units_of(field).coarse;
   if (key == "max_gap" || key == "max_age") return " s";
   if (key == "station_angle" || key == "distinct_attitude_angle" || key == "alert_limit" || key == "alignment_bound")
     return " rad";
@@ -116,13 +132,15 @@ const char* unit_of(const std::string& key) noexcept {
 /// The refusal of `plumb::checked` in the words of the file.
 [[noreturn]] void refuse_field(const TomlTable& table, const Error& error) {
   const bool known = error.index >= 0 && static_cast<std::size_t>(error.index) < known_keys().size();
-  const std::string key = known ? known_keys()[static_cast<std::size_t>(error.index)] : "";
+  const std::string key = known ? known_keys(table.field_of())[static_cast<std::size_t>(error.index)] : "";
   const int line = table.line_of(key.c_str());
   if (error.code == Errc::not_finite) table.fail(line, key, "is not finite", "write a finite number");
-  const std::string unit = unit_of(key);
-  table.fail(line, key, "is " + brief(error.value) + unit + ", out of range",
+  const std::string unit = unit_of(key, table.field_of());
+  const bool vector = key == "delta_f" || key == bound_key(table.field_of());
+  const double shown = vector ? units_of(table.field_of()).coarse_per_inside : 1.0;
+  table.fail(line, key, "is " + brief(shown * error.value) + unit + ", out of range",
              std::string("give a value ") + (error.value < error.limit ? "of at least " : "of at most ") +
-                 brief(error.limit) + unit);
+                 brief(shown * error.limit) + unit);
 }
 
 TomlNode no_table() {
@@ -132,24 +150,28 @@ TomlNode no_table() {
 }
 
 /// Of the node of the file, or of `nothing`, which must outlive it.
-TomlTable monitor_table(const TomlNode& root, const TomlNode& nothing, const std::string& file) {
-  const TomlNode* node = root.find("monitor");
-  return {node == nullptr ? nothing : *node, file, "monitor", known_keys()};
+TomlTable monitor_table(const GroupNode& group, const TomlNode& nothing) {
+  const TomlNode* node = group.node.find("monitor");
+  return {node == nullptr ? nothing : *node, group.file, group.prefix + "monitor", known_keys(group.field),
+          group.field};
 }
 
 }  // namespace
 
-MonitorConfig read_monitor(const TomlNode& root, const std::string& file) {
+MonitorConfig read_monitor(const GroupNode& group) {
   const TomlNode nothing = no_table();
-  const TomlTable table = monitor_table(root, nothing, file);
+  const TomlTable table = monitor_table(group, nothing);
   const Expected<MonitorConfig> config = plumb::checked(filled(table));
-  if (config) return *config;
-  refuse_field(table, config.error());
+  if (!config) refuse_field(table, config.error());
+  if (group.field != FieldKind::gravity && config->mode == MonitorMode::paper)
+    table.fail(table.line_of("mode"), "mode", "is \"paper\", which knows gravity only",
+               "remove the key: sensors of another field are watched in mode \"plumb\"");
+  return *config;
 }
 
-Stability read_usual_stability(const TomlNode& root, const std::string& file) {
+Stability read_usual_stability(const GroupNode& group) {
   const TomlNode nothing = no_table();
-  return read_stability(monitor_table(root, nothing, file), {});
+  return read_stability(monitor_table(group, nothing), {});
 }
 
 }  // namespace io

@@ -11,10 +11,18 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
+/// A group of sensors in the file: the file itself for accelerometers, a [[group]] for others.
+struct GroupNode {
+  const TomlNode& node;
+  const std::string& file;
+  FieldKind field = FieldKind::gravity;
+  std::string prefix;  ///< of its sections in messages: "group[1]."
+};
+
 GravityReference read_gravity(const TomlNode& root, const std::string& file);
-MonitorConfig read_monitor(const TomlNode& root, const std::string& file);
+MonitorConfig read_monitor(const GroupNode& group);
 /// Of [monitor]: what holds of every sensor that states nothing of its own.
-Stability read_usual_stability(const TomlNode& root, const std::string& file);
+Stability read_usual_stability(const GroupNode& group);
 /// The keys of a table that states one, for its list of known keys.
 std::vector<std::string> with_stability_keys(std::vector<std::string> names);
 /// A figure that the table omits is that of `fallback`.
@@ -28,12 +36,18 @@ bool read_motion_bounds(const TomlTable& table, MotionBounds& bounds);
 /// All of [input] but the columns of the sensors.
 InputSpec read_input(const TomlNode& root, const std::string& file, Reads& reads);
 /// Fills `out.datasheet`, `out.array` and the columns; `out.input` and `out.gravity` must be set.
-void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out);
+void read_sensors(const GroupNode& group, ArrayFile& out);
+/// The keys of a gyro that bound its errors, for its list of known keys.
+std::vector<std::string> with_rate_keys(std::vector<std::string> names);
+void read_rate_bounds(const TomlTable& table, RateErrors& errors);
+/// Every [[group]] of the file, with the layout of the log that `tool` states.
+std::vector<ArrayFile> read_groups(const TomlNode& root, const ArrayFile& tool, const FieldLookup& lookup);
 /// [[clock]], by the sensors, the gyros and [motion] of `out`, which must be set.
 void read_clocks(const TomlNode& root, const std::string& file, ArrayFile& out);
 
-/// The whole of it from its tree; throws Refusal.
-ArrayFile array_of(const TomlNode& root, const std::string& text, const std::string& path);
+/// The whole of it from its tree; throws Refusal. `group`: the name of a [[group]], empty for the accelerometers.
+ArrayFile array_of(const TomlNode& root, const std::string& text, const std::string& path,
+                   const FieldLookup& lookup = {}, const std::string& group = "");
 
 }  // namespace io
 }  // namespace PLUMB_ABI

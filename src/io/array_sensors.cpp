@@ -20,16 +20,25 @@ const std::vector<std::string>& known_keys() {
   return names;
 }
 
+const std::vector<std::string>& known_keys(FieldKind field) {
+  static const std::vector<std::string> magnetic =
+      with_stability_keys({"id", "column", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref", "noise", "prior",
+                           "full_scale", "resolution", "package"});
+  static const std::vector<std::string> rate = with_rate_keys(
+      {"id", "column", "axis", "scale", "bias", "bias_t", "scale_t", "t_ref", "noise", "full_scale", "package"});
+  return field == FieldKind::gravity ? known_keys() : field == FieldKind::magnetic ? magnetic : rate;
+}
+
 constexpr std::size_t kLongestId = 15;
 constexpr std::size_t kLongestPackage = 31;
 constexpr double kLongestArm_m = 100.0;
-/// A tenth of a ng0: the best there are reach some ng0 in a second.
+/// A tenth of a ng0, 4 fT or 0.2 mdeg/h: the best accelerometers reach some ng0 in a second.
 constexpr double kLeastNoise_mps2 = 1e-9;
 
 /// Everything that reading one sensor needs besides its table.
 struct Surroundings {
   const RawUnit& unit;
-  double g_mps2;
+  double g_mps2;  ///< 0: the vector has no known length
 };
 
 void refuse_unless_positive(const TomlTable& table, const char* key, double value, const std::string& remedy) {
@@ -54,9 +63,12 @@ void read_slopes(const TomlTable& table, const char* key, Quantity quantity, dou
                  std::array<double, 4>& out) {
   const TomlNode* list = table.find(key);
   if (list == nullptr) return;
-  const std::string form = std::string("write ") + key +
-                           (quantity == Quantity::ratio ? " = [\"200 ppm/degC\", \"1 ppm/degC^2\"]"
-                                                        : " = [\"0.1 mg/degC\", \"2 ug/degC^2\"]");
+  const std::string unit = units_of(table.field_of()).fine;
+  const std::string slopes = table.field_of() == FieldKind::gravity
+                                 ? "0.1 mg/degC\", \"2 ug/degC^2"
+                                 : "0.5 " + unit + "/degC\", \"0.01 " + unit + "/degC^2";
+  const std::string form = std::string("write ") + key + " = [\"" +
+                           (quantity == Quantity::ratio ? "200 ppm/degC\", \"1 ppm/degC^2" : slopes) + "\"]";
   if (list->kind != TomlNode::Kind::array || list->items.empty() || list->items.size() > 3) {
     table.fail(list->line, key, "must be a list of one to three coefficients", form);
   }
@@ -67,7 +79,8 @@ void read_slopes(const TomlTable& table, const char* key, Quantity quantity, dou
     if (item.kind != TomlNode::Kind::text)
       table.fail(list->line, name, std::string("is ") + item.kind_name() + ", must be a string with a unit", form);
     out[static_cast<std::size_t>(order)] =
-        factor * table.checked(parse_temperature_slope(quantity, item.text, order), name.c_str(), *list);
+        factor *
+        table.checked(parse_temperature_slope(quantity, item.text, order, table.field_of()), name.c_str(), *list);
   }
 }
 
@@ -85,15 +98,17 @@ Prior read_prior(const TomlTable& table, const RawUnit& unit, double scale) {
   Prior prior;
   const TomlNode* node = table.find("prior");
   if (node == nullptr) return prior;
-  const TomlTable inner(*node, table.file(), table.field("prior"), {"bias", "scale", "axis", "bias_t", "scale_t"});
+  const TomlTable inner(*node, table.file(), table.field("prior"), {"bias", "scale", "axis", "bias_t", "scale_t"},
+                        table.field_of());
   if (const TomlNode* bias = inner.find("bias"); bias != nullptr) {
-    const std::string text = inner.text_with_unit(*bias, "bias", accepted_raw_units());
+    const std::string text = inner.text_with_unit(*bias, "bias", accepted_raw_units(unit.field));
     prior.bias_mps2 = std::abs(inner.checked(parse_as_acceleration(text, unit, scale), "bias", *bias));
   }
   prior.scale = inner.quantity(Quantity::ratio, "scale", prior.scale);
   prior.axis_rad = inner.quantity(Quantity::angle, "axis", prior.axis_rad);
   refuse_unless_positive(inner, "bias", prior.bias_mps2,
-                         "give the 1-sigma tolerance of the bias, for example \"20 mg\"");
+                         std::string("give the 1-sigma tolerance of the bias, for example \"") +
+                             (unit.field == FieldKind::gravity ? "20 mg" : "500 nT") + "\"");
   refuse_unless_positive(inner, "scale", prior.scale, "give the 1-sigma tolerance of the scale, for example \"2 %\"");
   refuse_unless_positive(inner, "axis", prior.axis_rad,
                          "give the 1-sigma tolerance of the direction, for example \"2 deg\"");
@@ -106,32 +121,38 @@ Prior read_prior(const TomlTable& table, const RawUnit& unit, double scale) {
 double read_raw(const TomlTable& table, const char* key, const RawUnit& unit, double scale) {
   const TomlNode* value = table.find(key);
   if (value == nullptr) return 0.0;
-  const std::string text = table.text_with_unit(*value, key, accepted_raw_units());
+  const std::string text = table.text_with_unit(*value, key, accepted_raw_units(unit.field));
   return std::abs(table.checked(parse_as_raw(text, unit, scale), key, *value));
 }
 
 void check_range(const TomlTable& table, const DatasheetSensor& sensor, double g_mps2) {
-  if (!table.has("full_scale")) return;
+  if (!table.has("full_scale") || g_mps2 == 0.0) return;
+  const FieldUnits& units = units_of(table.field_of());
+  const auto words = [&units](double mps2) { return brief(units.coarse_per_inside * mps2) + " " + units.coarse; };
   const double reach_mps2 =
       sensor.full_scale_raw / std::abs(sensor.coefficients.scale[0]) - std::abs(sensor.coefficients.bias[0]);
   const double needed_mps2 = g_mps2 * (1.0 + kFullScaleMargin);
   if (reach_mps2 >= needed_mps2) return;
-  table.fail(
-      table.line_of("full_scale"), "full_scale",
-      "reaches " + brief(reach_mps2) + " m/s^2 beside the bias, below gravity plus a margin of 5 % (" +
-          brief(needed_mps2) + " m/s^2)",
-      "such a sensor clips when it points along gravity: check full_scale, scale and bias, or remove the sensor");
+  table.fail(table.line_of("full_scale"), "full_scale",
+             "reaches " + words(reach_mps2) + " beside the bias, below " + units.vector + " plus a margin of 5 % (" +
+                 words(needed_mps2) + ")",
+             std::string("such a sensor clips when it points along ") + units.vector +
+                 ": check full_scale, scale and bias, or remove the sensor");
 }
 
 double read_scale(const TomlTable& table, const RawUnit& unit) {
   const bool acceleration = unit.kind == RawUnit::Kind::acceleration;
   if (!table.has("scale") && acceleration) return 1.0 / unit.base_per_unit;
-  const std::string example = unit.kind == RawUnit::Kind::count ? "\"2048 count/g0\"" : "\"3 V/g0\"";
+  const bool gravity = unit.field == FieldKind::gravity;
+  const std::string example = !gravity                            ? units_of(unit.field).scale_examples
+                              : unit.kind == RawUnit::Kind::count ? "\"2048 count/g0\""
+                                                                  : "\"3 V/g0\"";
   const TomlNode& value = table.need("scale", "the log is in " + unit.name + ": give scale = " + example);
   const bool plain = value.kind == TomlNode::Kind::number || value.kind == TomlNode::Kind::integer;
-  const std::string text = acceleration && plain
-                               ? shortest(value.number)
-                               : table.text_with_unit(value, "scale", "V/g0, mV/g0, count/g0, count/(m/s^2), ...");
+  const std::string text =
+      acceleration && plain
+          ? shortest(value.number)
+          : table.text_with_unit(value, "scale", gravity ? "V/g0, mV/g0, count/g0, count/(m/s^2), ..." : example);
   return table.checked(parse_scale(text, unit), "scale", value);
 }
 
@@ -146,25 +167,29 @@ DatasheetSensor read_sensor(const TomlTable& table, const Surroundings& around) 
   const double scale = read_scale(table, around.unit);
   sensor.coefficients.scale[0] = scale;
   if (const TomlNode* bias = table.find("bias"); bias != nullptr) {
-    const std::string text = table.text_with_unit(*bias, "bias", accepted_raw_units());
+    const std::string text = table.text_with_unit(*bias, "bias", accepted_raw_units(around.unit.field));
     sensor.coefficients.bias[0] = table.checked(parse_as_acceleration(text, around.unit, scale), "bias", *bias);
   }
   read_slopes(table, "bias_t", Quantity::acceleration, 1.0, sensor.coefficients.bias);
   read_slopes(table, "scale_t", Quantity::ratio, scale, sensor.coefficients.scale);
   sensor.coefficients.reference_degc =
       table.quantity(Quantity::temperature, "t_ref", sensor.coefficients.reference_degc);
-  const std::string remedy = "give the noise of one sample, 1 sigma: noise = \"0.5 mg\"";
+  const FieldUnits& units = units_of(table.field_of());
+  const std::string remedy =
+      std::string("give the noise of one sample, 1 sigma: noise = \"") + units.noise_example + "\"";
   const TomlNode& noise = table.need("noise", remedy);
-  const std::string text = table.text_with_unit(noise, "noise", accepted_raw_units());
+  const std::string text = table.text_with_unit(noise, "noise", accepted_raw_units(around.unit.field));
   const double sigma_mps2 = table.checked(parse_as_acceleration(text, around.unit, std::abs(scale)), "noise", noise);
   refuse_unless_positive(table, "noise", sigma_mps2, remedy);
   if (sigma_mps2 < kLeastNoise_mps2)
     table.fail(noise.line, "noise",
-               "is " + brief(sigma_mps2) +
-                   " m/s^2, below 1e-9 m/s^2 (0.1 ng0): no accelerometer is that quiet, and every "
-                   "limit follows from it",
-               "give the noise as the datasheet or a recording at rest states it, 1 sigma of one sample: noise = \"0.5 "
-               "mg\"");
+               "is " + brief(units.coarse_per_inside * sigma_mps2) + " " + units.coarse + ", below " +
+                   brief(units.coarse_per_inside * kLeastNoise_mps2) + " " + units.coarse +
+                   (table.field_of() == FieldKind::gravity ? " (0.1 ng0)" : "") + ": no " + units.sensor +
+                   " is that quiet, and every limit follows from it",
+               std::string("give the noise as the datasheet or a recording at rest states it, 1 sigma of one sample: "
+                           "noise = \"") +
+                   units.noise_example + "\"");
   sensor.row.sigma_mps2 = sigma_mps2;
   sensor.full_scale_raw = read_raw(table, "full_scale", around.unit, scale);
   sensor.resolution_raw = read_raw(table, "resolution", around.unit, scale);
@@ -173,7 +198,9 @@ DatasheetSensor read_sensor(const TomlTable& table, const Surroundings& around) 
   return sensor;
 }
 
-std::string path_of(std::size_t i) { return "sensor[" + std::to_string(i + 1) + "]"; }
+std::string path_of(std::size_t i, const std::string& prefix = "") {
+  return prefix + "sensor[" + std::to_string(i + 1) + "]";
+}
 
 void refuse_twins(const std::vector<TomlTable>& tables, const std::vector<std::string>& values, const char* key,
                   const std::string& remedy) {
@@ -188,23 +215,31 @@ void refuse_twins(const std::vector<TomlTable>& tables, const std::vector<std::s
   }
 }
 
-const TomlNode& sensor_list(const TomlNode& root, const std::string& file) {
-  const TomlNode* list = root.find("sensor");
-  const std::string form = "add one [[sensor]] section for each accelerometer, three at least";
-  if (list == nullptr) throw Refusal(FileError{file, 0, "sensor", "the file describes no sensor", form});
+const TomlNode& sensor_list(const GroupNode& group) {
+  const TomlNode* list = group.node.find("sensor");
+  const std::string& file = group.file;
+  const bool gravity = group.field == FieldKind::gravity;
+  const std::string section = gravity ? "[[sensor]]" : "[[group.sensor]]";
+  const std::string form =
+      "add one " + section + " section for each " + units_of(group.field).sensor + ", three at least";
+  if (list == nullptr)
+    throw Refusal(FileError{file, gravity ? 0 : group.node.line, group.prefix + "sensor",
+                            gravity ? "the file describes no sensor" : "the group describes no sensor", form});
   if (list->kind != TomlNode::Kind::array)
-    throw Refusal(FileError{file, list->line, "sensor", "is " + std::string(list->kind_name()) + ", must be a list",
-                            "write [[sensor]] with two brackets"});
+    throw Refusal(FileError{file, list->line, group.prefix + "sensor",
+                            "is " + std::string(list->kind_name()) + ", must be a list",
+                            "write " + section + " with two brackets"});
   const std::size_t n = list->items.size();
   if (n < 3)
     throw Refusal(FileError{
-        file, list->line, "sensor",
+        file, list->line, group.prefix + "sensor",
         "an array of " + count_text(n, "sensor") + " cannot determine a vector; at least 3 are needed", form});
   if (n > static_cast<std::size_t>(kCapacity)) {
-    throw Refusal(FileError{
-        file, list->items[static_cast<std::size_t>(kCapacity)].line, path_of(static_cast<std::size_t>(kCapacity)),
-        std::to_string(n) + " sensors are more than this build holds (" + std::to_string(kCapacity) + ")",
-        "remove sensors, or build plumb with a larger PLUMB_CAPACITY (24 at most)"});
+    throw Refusal(
+        FileError{file, list->items[static_cast<std::size_t>(kCapacity)].line,
+                  path_of(static_cast<std::size_t>(kCapacity), group.prefix),
+                  std::to_string(n) + " sensors are more than this build holds (" + std::to_string(kCapacity) + ")",
+                  "remove sensors, or build plumb with a larger PLUMB_CAPACITY (24 at most)"});
   }
   return *list;
 }
@@ -299,17 +334,20 @@ std::string package_of(const ArrayFile& array, int sensor) {
   return at < array.package.size() ? array.package[at] : std::string();
 }
 
-void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out) {
-  const TomlNode& list = sensor_list(root, file);
-  const Stability usual = read_usual_stability(root, file);
+void read_sensors(const GroupNode& group, ArrayFile& out) {
+  const TomlNode& list = sensor_list(group);
+  const Stability usual = read_usual_stability(group);
+  const double length_mps2 = group.field == FieldKind::rate ? 0.0 : out.gravity.g_mps2;
   std::vector<TomlTable> tables;
   std::vector<std::string> ids;
   std::vector<std::string> columns;
   for (std::size_t i = 0; i < list.items.size(); ++i) {
-    tables.emplace_back(list.items[i], file, path_of(i), known_keys());
-    out.datasheet.sensor[i] = read_sensor(tables.back(), {out.input.unit, out.gravity.g_mps2});
-    out.stability[i] = read_stability(tables.back(), usual);
-    if (read_motion_bounds(tables.back(), out.motion.sensor[i])) out.motion.mentioned = true;
+    tables.emplace_back(list.items[i], group.file, path_of(i, group.prefix), known_keys(group.field), group.field);
+    out.datasheet.sensor[i] = read_sensor(tables.back(), {out.input.unit, length_mps2});
+    if (group.field == FieldKind::rate) read_rate_bounds(tables.back(), out.rate.errors[i]);
+    if (group.field != FieldKind::rate) out.stability[i] = read_stability(tables.back(), usual);
+    if (group.field == FieldKind::gravity && read_motion_bounds(tables.back(), out.motion.sensor[i]))
+      out.motion.mentioned = true;
     ids.push_back(tables.back().text("id", ""));
     columns.push_back(tables.back().text("column", ids.back()));
   }
@@ -320,7 +358,7 @@ void read_sensors(const TomlNode& root, const std::string& file, ArrayFile& out)
   number_chips(out.package, out.datasheet);
   out.array = built_array(tables, out.datasheet);
   settle_temperature(tables, out.datasheet, out.input);
-  out.lever_arm_m = read_lever_arms(tables);
+  if (group.field == FieldKind::gravity) out.lever_arm_m = read_lever_arms(tables);
   out.input.sensor_columns = columns;
 }
 

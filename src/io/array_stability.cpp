@@ -23,15 +23,19 @@ constexpr std::array<StabilityKey, 4> kKeys = {
 double read_figure(const TomlTable& table, const StabilityKey& key, double fallback) {
   const TomlNode* value = table.find(key.key);
   if (value == nullptr) return fallback;
-  std::string text = table.text_with_unit(*value, key.key, accepted_units(Quantity::acceleration));
+  const FieldUnits& units = units_of(table.field_of());
+  std::string text = table.text_with_unit(*value, key.key, accepted_units(Quantity::acceleration, table.field_of()));
   const std::string per = key.per;
   if (text.size() > per.size() && text.compare(text.size() - per.size(), per.size(), per) == 0)
     text.resize(text.size() - per.size());
-  const double mps2 = table.checked(parse_quantity(Quantity::acceleration, text), key.key, *value);
+  const double mps2 = table.checked(parse_quantity(Quantity::acceleration, text, table.field_of()), key.key, *value);
   if (mps2 >= 0.0 && mps2 <= kMostStability_mps2) return mps2;
-  table.fail(value->line, key.key, "is " + brief(mps2) + " m/s^2" + per + ", out of range",
-             "give the possible error of a reading, 1 sigma, from 0 to " + brief(kMostStability_mps2) +
-                 " m/s^2: " + key.key + " = \"0.2 mg" + per + "\"");
+  const bool gravity = table.field_of() == FieldKind::gravity;
+  table.fail(value->line, key.key,
+             "is " + brief(units.coarse_per_inside * mps2) + " " + units.coarse + per + ", out of range",
+             "give the possible error of a reading, 1 sigma, from 0 to " +
+                 brief(units.coarse_per_inside * kMostStability_mps2) + " " + units.coarse + ": " + key.key + " = \"" +
+                 (gravity ? "0.2 mg" : units.noise_example) + per + "\"");
 }
 
 }  // namespace

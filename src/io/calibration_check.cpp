@@ -175,7 +175,8 @@ void check_positive(const Source& source, const Calibration& calibration, std::s
 
 void check_context(const Source& source, const CalibrationContext& context) {
   const Check gravity(source, "gravity");
-  gravity.within("g_mps2", context.gravity.g_mps2, 9.0, 10.5);
+  const bool magnetic = context.gravity.model == GravityModel::magnetic;
+  gravity.within("g_mps2", context.gravity.g_mps2, magnetic ? kLeastField : 9.0, magnetic ? kMostField : 10.5);
   gravity.within("sigma_mps2", context.gravity.sigma_mps2, 0.0, 0.1);
   Check(source, "provenance").within("stations", context.stations, 0.0, std::numeric_limits<int>::max());
 }

@@ -276,7 +276,8 @@ CalibrationContext read_context(const Source& source, const Json& root) {
   CalibrationContext context;
   const Json& gravity = source.member(root, "gravity");
   context.gravity.model = enum_from(
-      source, gravity, "model", {GravityModel::normal, GravityModel::paper, GravityModel::value, GravityModel::table});
+      source, gravity, "model",
+      {GravityModel::normal, GravityModel::paper, GravityModel::value, GravityModel::table, GravityModel::magnetic});
   context.gravity.g_mps2 = source.number_of(gravity, "g_mps2");
   context.gravity.sigma_mps2 = source.number_of(gravity, "sigma_mps2");
   const Json& provenance = source.member(root, "provenance");

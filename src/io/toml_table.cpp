@@ -12,8 +12,9 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
-TomlTable::TomlTable(const TomlNode& node, std::string file, std::string path, const std::vector<std::string>& known)
-    : node_(&node), file_(std::move(file)), path_(std::move(path)) {
+TomlTable::TomlTable(const TomlNode& node, std::string file, std::string path, const std::vector<std::string>& known,
+                     FieldKind field)
+    : node_(&node), file_(std::move(file)), path_(std::move(path)), field_(field) {
   if (node.kind != TomlNode::Kind::table) {
     throw Refusal(FileError{file_, node.line, path_, std::string("is ") + node.kind_name() + ", must be a table",
                             "write [" + path_ + "] on a line of its own and its keys below"});
@@ -101,7 +102,8 @@ double TomlTable::need_quantity(Quantity quantity, const char* key, const std::s
     if (!std::isfinite(value.number)) fail(value.line, key, "is not finite", "write a finite number");
     return value.number;
   }
-  return checked(parse_quantity(quantity, text_with_unit(value, key, accepted_units(quantity))), key, value);
+  const std::string text = text_with_unit(value, key, accepted_units(quantity, field_));
+  return checked(parse_quantity(quantity, text, field_), key, value);
 }
 
 std::int64_t TomlTable::integer(const char* key, std::int64_t fallback) const {

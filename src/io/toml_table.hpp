@@ -17,8 +17,10 @@ namespace io {
 
 class TomlTable {
  public:
-  /// `known` are the keys that the table may hold; others are refused with the nearest of them.
-  TomlTable(const TomlNode& node, std::string file, std::string path, const std::vector<std::string>& known);
+  /// `known` are the keys that the table may hold; others are refused with the nearest of them. Accelerations are
+  /// read in the units of `field`.
+  TomlTable(const TomlNode& node, std::string file, std::string path, const std::vector<std::string>& known,
+            FieldKind field = FieldKind::gravity);
 
   bool has(const char* key) const noexcept { return find(key) != nullptr; }
   const TomlNode* find(const char* key) const noexcept { return node_->find(key); }
@@ -49,6 +51,7 @@ class TomlTable {
   int line_of(const char* key) const noexcept;
   const TomlNode& node() const noexcept { return *node_; }
   const std::string& file() const noexcept { return file_; }
+  FieldKind field_of() const noexcept { return field_; }
 
  private:
   [[noreturn]] void wrong_kind(const TomlNode& value, const char* key, const char* wanted,
@@ -57,6 +60,7 @@ class TomlTable {
   const TomlNode* node_;
   std::string file_;
   std::string path_;
+  FieldKind field_;
 };
 
 }  // namespace io

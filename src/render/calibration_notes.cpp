@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "plumb/core/units.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
 
@@ -57,11 +58,11 @@ std::string drift_words(const io::ArrayFile& array, double days_since_calibratio
   const SensorSet untold = io::without_stability(array);
   if (untold == array.array.all()) return "none is allowed for: no stability is stated";
   const Readings tolerance = io::tolerance_mps2(array, days_since_calibration);
-  const double most_mg = 1e3 * g0_from_mps2(*std::max_element(tolerance.begin(), tolerance.end()));
+  const double most = in_fine(array, *std::max_element(tolerance.begin(), tolerance.end()));
   std::string out = fmt::format(
       "up to {:.3g} mg0 allowed for, {:.0f} sigmas of the stability {} after the "
       "calibration",
-      most_mg, kStabilitySigmas, count_text(std::round(days_since_calibration), "day"));
+      most, kStabilitySigmas, count_text(std::round(days_since_calibration), "day"));
   if (!untold.empty()) out += "; none for " + sensor_names(untold, array.array);
   return out;
 }

@@ -7,6 +7,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/unit_guess.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -133,7 +134,7 @@ std::string log_words(const Finding& f, const io::ArrayFile& array) {
       return fmt::format(
           "`noise`: even in the quietest tenth of the log {} scatters by {:.3g} mg0, {:.3g} times the {:.3g} mg0 "
           "declared{}. If the tool was at rest then, declare the noise as it is; {}",
-          id_of(array, f.sensor), in_mg0(f.value), f.value / f.limit, in_mg0(f.limit),
+          id_of(array, f.sensor), in_fine(array, f.value), f.value / f.limit, in_fine(array, f.limit),
           f.other > 1 ? fmt::format(" ({} of {} exceed theirs)", f.other, count_text(array.array.size(), "sensor"))
                       : "",
           measure_noise_words(array));

@@ -8,6 +8,7 @@
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/dead_channel.hpp"
 #include "plumb/findings/geometry_study.hpp"
+#include "plumb/io/field_json.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/alignment_words.hpp"
 #include "plumb/render/fit_report.hpp"
@@ -273,10 +274,10 @@ std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& a
                                              {"ratio", odd.ratio}});
   }
   out["sensors"] = sensors_json(run, array);
-  out["paper_parameters"] = paper_parameters_json(run, array);
+  if (array.field == io::FieldKind::gravity) out["paper_parameters"] = paper_parameters_json(run, array);
   if (run.paper) out["paper"] = paper_fits_json(*run.paper, array);
   out["attitudes"] = attitudes_json(run, array);
-  return out.dump(2) + "\n";
+  return io::in_field_units(out, array.field).dump(2) + "\n";
 }
 
 }  // namespace render

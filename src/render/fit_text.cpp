@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "finding_words.hpp"
 #include "fit_words.hpp"
@@ -10,6 +12,7 @@
 #include "plumb/findings/column_findings.hpp"
 #include "plumb/findings/fit_remarks.hpp"
 #include "plumb/render/alignment_words.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/wiring_words.hpp"
@@ -58,9 +61,10 @@ std::string lines(const std::string& label, const std::vector<std::string>& text
   return out;
 }
 
-std::string stations_text(const findings::CalibrationRun& run) {
-  std::string out = fmt::format("\n  {:>7}  {:>12} {:>12}  {:>8}  {:>11}  {:>9} {:>9} {:>9}\n", "station", "begin s",
-                                "end s", "samples", "temperature", "norm mg0", "incl. deg", "held out");
+std::string stations_text(const findings::CalibrationRun& run, const io::ArrayFile& array) {
+  std::string out =
+      fmt::format("\n  {:>7}  {:>12} {:>12}  {:>8}  {:>11}  {:>9} {:>9} {:>9}\n", "station", "begin s", "end s",
+                  "samples", "temperature", fmt::format("norm {}", fine_unit(array)), "incl. deg", "held out");
   for (std::size_t k = 0; k < run.stations.size(); ++k) {
     const Station& s = run.stations[k];
     const Vec3& u = run.study.attitudes[k].direction;
@@ -71,7 +75,7 @@ std::string stations_text(const findings::CalibrationRun& run) {
     out += fmt::format(
         "  {:>7}  {:>12.3f} {:>12.3f}  {:>8}  {:>6.1f} degC  {:>9} {:>9} {:>9}\n", k + 1, s.begin_s, s.end_s, s.count,
         s.temperature_degc,
-        fitted ? unsigned_zero(fmt::format("{:+.3f}", in_mg0(run.study.residuals[k].norm_error_mps2))) : "-",
+        fitted ? unsigned_zero(fmt::format("{:+.3f}", in_fine(array, run.study.residuals[k].norm_error_mps2))) : "-",
         norm(u) > 0.0 ? fmt::format("{:.1f}", deg_from_rad(std::atan2(std::hypot(u[0], u[1]), u[2]))) : "-",
         !kept       ? "rejected"
         : predicted ? fmt::format("{:.2f} s", run.study.predicted[k].sigmas)
@@ -135,21 +139,21 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
   if (!run.study.shown) return "";
   const FitReport& r = run.told();
   std::string out = "\nresiduals\n";
-  out += line("length of gravity", fmt::format("{:.3f} mg0 rms", in_mg0(r.norm_rms_mps2)));
-  out += line("parity", array.array.size() > 3 ? fmt::format("{:.3f} mg0 rms", in_mg0(r.parity_rms_mps2))
+  out += line("length of gravity", fmt::format("{:.3f} mg0 rms", in_fine(array, r.norm_rms_mps2)));
+  out += line("parity", array.array.size() > 3 ? fmt::format("{:.3f} mg0 rms", in_fine(array, r.parity_rms_mps2))
                                                : std::string("none: three sensors do not check one another"));
-  out += line("beyond the noise", fmt::format("{:.3f} mg0", in_mg0(r.misfit_mps2)));
+  out += line("beyond the noise", fmt::format("{:.3f} mg0", in_fine(array, r.misfit_mps2)));
   out += line("chi^2", fmt::format("{:.4g} for {}, p = {:.3g}: {}", r.chi2,
                                    count_text(r.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
                                    r.p_value, p_value_words(r)));
   if (noise_overstated(r)) out += line("noise", measure_noise_words(array));
   const HoldOut& h = run.study.held_out;
   if (h.judged > 0) {
-    std::string words =
-        fmt::format("norm {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.norm_rms_mps2), in_mg0(h.norm_max_mps2));
+    std::string words = fmt::format("norm {:.3f} mg0 rms (largest {:.3f})", in_fine(array, h.norm_rms_mps2),
+                                    in_fine(array, h.norm_max_mps2));
     if (array.array.size() > 3) {
-      words +=
-          fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_mg0(h.parity_rms_mps2), in_mg0(h.parity_max_mps2));
+      words += fmt::format(", parity {:.3f} mg0 rms (largest {:.3f})", in_fine(array, h.parity_rms_mps2),
+                           in_fine(array, h.parity_max_mps2));
     }
     words += fmt::format("; {:.2f} times what the fit claims; {} of {}, each predicted by a fit without it", h.sigmas,
                          h.judged, count_text(run.study.kept.size(), "station"));
@@ -171,8 +175,8 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
     out += line("at full scale",
                 fmt::format("{} of {}, not used", count_text(r.clipped, "reading"), clipped_names(r, array)));
   if (run.study.odd.sensor >= 0) {
-    out += line("stands out",
-                id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd) + "; look at its channel");
+    out += line("stands out", id_of(array, run.study.odd.sensor) + ": " + odd_sensor_words(run.study.odd, array) +
+                                  "; look at its channel");
   }
   if (const std::string loud = high_variance_words(r, array); !loud.empty()) out += line("stands out", loud);
   for (const findings::Finding& f : findings::noise_remarks(run, array)) {
@@ -184,19 +188,38 @@ std::string residual_section(const findings::CalibrationRun& run, const io::Arra
   return out;
 }
 
+/// The table in the units of the array's field.
+std::array<SensorField, std::size(kSensorFields)> sensor_fields(const io::ArrayFile& array) {
+  std::array<SensorField, std::size(kSensorFields)> out{};
+  std::copy(std::begin(kSensorFields), std::end(kSensorFields), out.begin());
+  if (array.field == io::FieldKind::gravity) return out;
+  const io::FieldUnits& units = io::units_of(array.field);
+  for (SensorField& field : out) {
+    if (field.of_json == kMilli) {
+      field.below = units.fine;
+      field.of_text *= kMilli * units.fine_per_inside;
+    } else if (field.below == nullptr) {  // the scale
+      field.of_text /= kG0_mps2 * units.coarse_per_inside;
+    }
+  }
+  return out;
+}
+
 std::string sensors_section(const findings::CalibrationRun& run, const io::ArrayFile& array) {
-  std::string out = fmt::format("\n  {:<15}", "sensor") + text_head(kSensorFields, &SensorField::above) +
+  const auto fields = sensor_fields(array);
+  const std::string per = array.field == io::FieldKind::gravity ? "g0" : io::units_of(array.field).coarse;
+  std::string out = fmt::format("\n  {:<15}", "sensor") + text_head(fields, &SensorField::above) +
                     fmt::format("  {:<15}", "") +
-                    text_head(kSensorFields, &SensorField::below, array.input.unit.name + "/g0");
+                    text_head(fields, &SensorField::below, array.input.unit.name + "/" + per);
   for (const findings::SensorFigures& f : findings::sensor_figures(run, array))
-    out += fmt::format("  {:<15}", f.id) + text_row(kSensorFields, f);
+    out += fmt::format("  {:<15}", f.id) + text_row(fields, f);
   return out +
          "  data: how much of a value comes from the log (100 %) rather than from the datasheet (0 %). axis: turned "
          "against the\n  nominal one. e_cal: what calibration leaves in a reading (1 sigma).\n";
 }
 
 std::string paper_parameters_section(const findings::CalibrationRun& run, const io::ArrayFile& array) {
-  if (!run.study.shown) return "";
+  if (!run.study.shown || array.field != io::FieldKind::gravity) return "";
   if (!run.study.paper) return "\n" + line("eqs (1)-(3)", paper_words(run.study.paper.error(), array));
   const SensorModel& model = *run.study.paper;
   std::string out =
@@ -205,8 +228,8 @@ std::string paper_parameters_section(const findings::CalibrationRun& run, const 
   out += "\n";
   for (int i = 0; i < model.size; ++i) {
     const auto a = static_cast<std::size_t>(i);
-    out += fmt::format("  {:<15} {:>10} {:>14.7g}", id_of(array, i), fixed_words(in_mg0(model.sensor[a].bias[0]), 3),
-                       model.sensor[a].scale[0] * kG0_mps2);
+    out += fmt::format("  {:<15} {:>10} {:>14.7g}", id_of(array, i),
+                       fixed_words(in_fine(array, model.sensor[a].bias[0]), 3), model.sensor[a].scale[0] * kG0_mps2);
     for (int k = 0; k < model.size; ++k) {
       out += i == k ? fmt::format(" {:>11}", "-")
                     : fmt::format(" {:>11}",
@@ -253,16 +276,15 @@ std::string attitude_section(const findings::CalibrationRun& run, const io::Arra
   return out + lines("record next", next);
 }
 
-}  // namespace
-
-std::string fit_text(const findings::CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts) {
-  std::string out =
-      fmt::format("array       {} ({}), gravity {:.6f} m/s^2 ({})\n", array.name,
-                  count_text(array.array.size(), "sensor"), array.gravity.g_mps2, to_string(array.gravity.model));
+std::string text_of(const findings::CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts) {
+  std::string out = fmt::format(
+      "array       {} ({}), gravity {:.6f} m/s^2 ({})\n", array.name, count_text(array.array.size(), "sensor"),
+      io::units_of(array.field).coarse_per_inside * array.gravity.g_mps2,
+      array.field == io::FieldKind::gravity ? to_string(array.gravity.model) : array.magnetic.source);
   out += fmt::format("log         {} used, {} skipped, {}\n", count_text(run.log.rows, "row"),
                      count_text(run.log.rows_bad, "bad row"), count_text(run.stations.size(), "station"));
   out += columns_section(run, array);
-  if (parts.stations) out += stations_text(run);
+  if (parts.stations) out += stations_text(run, array);
   out += fit_section(run, array) + temperature_section(run, array) + residual_section(run, array) +
          sensors_section(run, array) + temperature_table(run, array) + paper_parameters_section(run, array);
   if (run.paper) out += paper_fits_section(*run.paper, array);
@@ -273,6 +295,12 @@ std::string fit_text(const findings::CalibrationRun& run, const io::ArrayFile& a
   const Refusal refusal = refusal_of(run, array);
   if (run.study.shown) out += "\nthe values above are those of the refused fit; none was written\n";
   return out + "\nNOT ACCEPTED: " + refusal.reason + "\nwhat to do:   " + refusal.next + "\n";
+}
+
+}  // namespace
+
+std::string fit_text(const findings::CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts) {
+  return in_field_words(text_of(run, array, parts), array.field);
 }
 
 }  // namespace render

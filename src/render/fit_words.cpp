@@ -8,6 +8,7 @@
 #include "finding_words.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/findings/fit_remarks.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/words.hpp"
 #include "temperature_words.hpp"
@@ -195,9 +196,9 @@ std::vector<std::string> outlier_words(const findings::CalibrationRun& run, cons
 
 std::string noise_words(const FitReport& report, const io::ArrayFile& array, int sensor) {
   return fmt::format("the samples of {} scatter by {:.3g} mg0, {:.2g} times the {:.3g} mg0 declared",
-                     id_of(array, sensor), in_mg0(report.sample_noise_mps2[static_cast<std::size_t>(sensor)]),
+                     id_of(array, sensor), in_fine(array, report.sample_noise_mps2[static_cast<std::size_t>(sensor)]),
                      findings::noise_factor(report, array, sensor),
-                     in_mg0(array.datasheet.sensor[static_cast<std::size_t>(sensor)].row.sigma_mps2));
+                     in_fine(array, array.datasheet.sensor[static_cast<std::size_t>(sensor)].row.sigma_mps2));
 }
 
 std::string high_variance_words(const FitReport& report, const io::ArrayFile& array) {
@@ -205,7 +206,7 @@ std::string high_variance_words(const FitReport& report, const io::ArrayFile& ar
   return fmt::format(
       "{}: its residuals are {:.1f} times those of the other sensors, {:.3g} mg0 at a station beyond its noise; all "
       "sigmas are widened for it. Look at its channel",
-      id_of(array, report.high_variance_sensor), report.loud_excess, in_mg0(report.loud_misfit_mps2));
+      id_of(array, report.high_variance_sensor), report.loud_excess, in_fine(array, report.loud_misfit_mps2));
 }
 
 std::string inclination_words(const FitReport& report) {
@@ -243,7 +244,7 @@ std::string level_words(const FitReport& report, const io::ArrayFile& array) {
   return fmt::format(
       "the residuals of {} depend on temperature beyond the fit: near {:.0f} degC its residuals have a mean of "
       "{:+.3g} mg0, {:.1f} sigma from none",
-      one_of(level.suspects, array), level.degc, in_mg0(level.mean_mps2), level.sigmas());
+      one_of(level.suspects, array), level.degc, in_fine(array, level.mean_mps2), level.sigmas());
 }
 
 std::string roll_words(const FitReport& report) {
@@ -259,12 +260,12 @@ std::string roll_words(const FitReport& report) {
   return out;
 }
 
-std::string odd_sensor_words(const OddSensor& odd) {
+std::string odd_sensor_words(const OddSensor& odd, const io::ArrayFile& array) {
   // A fit that runs away may end with any number.
-  const std::string with = odd.with_mps2 < kAbsurd_mps2
-                               ? fmt::format("with it {:.3g} mg0 remain beyond the noise", in_mg0(odd.with_mps2))
-                               : "with it the fit does not converge";
-  return with + fmt::format(", without it {:.3g} mg0", in_mg0(odd.without_mps2));
+  const std::string with = odd.with_mps2 < kAbsurd_mps2 ? fmt::format("with it {:.3g} mg0 remain beyond the noise",
+                                                                      in_fine(array, odd.with_mps2))
+                                                        : "with it the fit does not converge";
+  return with + fmt::format(", without it {:.3g} mg0", in_fine(array, odd.without_mps2));
 }
 
 std::string paper_sensors(const findings::PaperFigures& figures, const io::ArrayFile& array) {

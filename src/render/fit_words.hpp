@@ -52,7 +52,7 @@ std::string level_words(const FitReport& report, const io::ArrayFile& array);  /
 std::string roll_words(const FitReport& report);
 
 /// "with it 4.5 mg0 remain beyond the noise, without it 0.01 mg0".
-std::string odd_sensor_words(const OddSensor& odd);
+std::string odd_sensor_words(const OddSensor& odd, const io::ArrayFile& array);
 
 /// "all", or the ids of the three.
 std::string paper_sensors(const findings::PaperFigures& figures, const io::ArrayFile& array);

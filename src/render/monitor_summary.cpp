@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "plumb/core/units.hpp"
+#include "plumb/io/field_json.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/navigation/tilt.hpp"
 #include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/measured_words.hpp"
 #include "plumb/render/run_findings.hpp"
 #include "plumb/render/sensor_notes.hpp"
@@ -90,13 +92,15 @@ std::string summary_text(const session::MonitorRun& run, const io::ArrayFile& ar
                    "the housing\n",
                    deg_from_rad(v.protection_level_calibrated_axes_rad), deg_from_rad(v.protection_level_housing_rad))
              : std::string("no bound on the error can be given\n");
-  return out + notes_text(run, array, sensors) + findings_text(v, array) + "drift       " + drift_of(array, days) +
-         "\n" + motion_text(motion, array);
+  out += notes_text(run, array, sensors) + findings_text(v, array) + "drift       " + drift_of(array, days) + "\n" +
+         motion_text(motion, array);
+  return in_field_words(std::move(out), array.field);
 }
 
 std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& array, const SensorArray& sensors,
                          double days, const io::Json& roll_test, const MotionTold& motion) {
   nlohmann::ordered_json s;
+  if (!array.group.empty()) s["group"] = array.group;
   s["state"] = to_string(run.last.state);
   s["output"] = to_string(run.last.validity);
   s["samples"] = run.samples;
@@ -115,7 +119,7 @@ std::string summary_json(const session::MonitorRun& run, const io::ArrayFile& ar
   if (!roll_test.is_null()) s["roll_test"] = roll_test;
   if (motion.any()) s["motion"] = motion_json(motion, array);
   s["last_verdict"] = io::parsed(io::verdict_json(run.last, sensors, array.output_frame));
-  return io::object({{"summary", std::move(s)}}).dump() + "\n";
+  return io::in_field_units(io::object({{"summary", std::move(s)}}), array.field).dump() + "\n";
 }
 
 }  // namespace render

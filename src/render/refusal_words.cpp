@@ -10,6 +10,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/findings/fit_figures.hpp"
 #include "plumb/findings/refusal.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/fit_report.hpp"
 #include "plumb/render/wiring_words.hpp"
@@ -87,6 +88,10 @@ Refusal roll_axis_refusal(const Finding& f, const CalibrationRun& run) {
 
 /// Of what all sensors share: gravity, unit, scale, roll axis.
 std::optional<Refusal> common_words(const Finding& f, const CalibrationRun& run, const io::ArrayFile& array) {
+  const double coarse = io::units_of(array.field).coarse_per_inside;
+  const bool magnetic = array.field == io::FieldKind::magnetic;
+  const double least = magnetic ? kLeastField : kEarthGravityMin_mps2;
+  const double most = magnetic ? kMostField : kEarthGravityMax_mps2;
   switch (f.code) {
     case Code::wrong_unit:
       return Refusal{
@@ -96,8 +101,8 @@ std::optional<Refusal> common_words(const Finding& f, const CalibrationRun& run,
           "correct `unit` in [input], or `scale` and `bias` of the sensors"};
     case Code::gravity_out_of_range:
       return Refusal{
-          fmt::format("gravity {:.5g} m/s^2 is {} than anywhere on Earth ({:.2f} to {:.2f} m/s^2)", f.value,
-                      f.value < f.limit ? "less" : "more", kEarthGravityMin_mps2, kEarthGravityMax_mps2),
+          fmt::format("gravity {:.5g} m/s^2 is {} than anywhere on Earth ({:.2f} to {:.2f} m/s^2)", coarse * f.value,
+                      f.value < f.limit ? "less" : "more", coarse * least, coarse * most),
           "correct [gravity] in the array file (unit, latitude, depth); otherwise every scale factor takes up this "
           "error"};
     case Code::common_scale_changed:
@@ -129,7 +134,7 @@ std::string implausible_words(const Finding& f, const io::ArrayFile& array) {
       return fmt::format(
           "the bias of {} came out {:.4g} mg0 from its datasheet value (at most {:.4g}, 8 times its prior), which is "
           "physically implausible",
-          sensor, in_mg0(f.value), in_mg0(f.limit));
+          sensor, in_fine(array, f.value), in_fine(array, f.limit));
     case Code::value_implausible:
       return fmt::format("a parameter of {} is physically implausible ({:.4g}, bound {:.4g})", sensor, f.value,
                          f.limit);
@@ -166,21 +171,21 @@ std::optional<Refusal> judged_words(const Finding& f, const CalibrationRun& run,
     case Code::inconsistent_sensor:
       return Refusal{
           fmt::format("{} is faulty or wrongly described: {} (allowed {:.3g} mg0)", sensor,
-                      odd_sensor_words(run.study.odd), in_mg0(f.limit)),
+                      odd_sensor_words(run.study.odd, array), in_fine(array, f.limit)),
           "look at the channel of " + sensor + " in the log; leave the sensor out or replace it, then record again"};
     case Code::residuals_follow_temperature:
-      return Refusal{fmt::format("{} (allowed {:.3g} mg0)", level_words(run.told(), array), in_mg0(f.limit)),
+      return Refusal{fmt::format("{} (allowed {:.3g} mg0)", level_words(run.told(), array), in_fine(array, f.limit)),
                      run.temperature.order < kMaxTemperatureOrder
                          ? "record at more temperatures, so that a higher order can be fitted; or replace the sensor"
                          : "use the tool where the sensor follows a cubic (--use-range-degc, and stations of that "
                            "range only), or replace the sensor"};
     case Code::sensors_disagree:
-      return Refusal{
-          fmt::format("the sensors disagree by {:.3g} mg0 rms (allowed {:.3g})", in_mg0(f.value), in_mg0(f.limit)),
-          "look at " + sensor + ", whose residual is the largest; " + kRecordAgain};
+      return Refusal{fmt::format("the sensors disagree by {:.3g} mg0 rms (allowed {:.3g})", in_fine(array, f.value),
+                                 in_fine(array, f.limit)),
+                     "look at " + sensor + ", whose residual is the largest; " + kRecordAgain};
     case Code::held_out_error_too_large:
       return Refusal{fmt::format("the error at stations held out of the fit is {:.3g} mg0 rms (allowed {:.3g})",
-                                 in_mg0(f.value), in_mg0(f.limit)),
+                                 in_fine(array, f.value), in_fine(array, f.limit)),
                      worst_station()};
     case Code::held_out_error_above_claim:
       return Refusal{
@@ -194,6 +199,7 @@ std::optional<Refusal> judged_words(const Finding& f, const CalibrationRun& run,
 /// Of a fit that was refused for its residuals.
 std::optional<Refusal> residual_words(const Finding& f, const CalibrationRun& run, const io::ArrayFile& array) {
   const FitReport& r = run.report;
+  const double coarse = io::units_of(array.field).coarse_per_inside;
   const std::string sensor = f.sensor >= 0 ? id_of(array, f.sensor) : "";
   const std::string channel = f.sensor >= 0 ? "look at the channel of " + sensor + " in the log; " : "";
   switch (f.code) {
@@ -219,8 +225,9 @@ std::optional<Refusal> residual_words(const Finding& f, const CalibrationRun& ru
                                  sensor, f.value, f.limit),
                      channel + kRecordAgain};
     case Code::residual_too_large:
-      return Refusal{fmt::format("the residual is too large ({:.4g} m/s^2, allowed {:.4g})", f.value, f.limit),
-                     "look at " + sensor + ", whose residual is the largest; check [gravity], and " + kRecordAgain};
+      return Refusal{
+          fmt::format("the residual is too large ({:.4g} m/s^2, allowed {:.4g})", coarse * f.value, coarse * f.limit),
+          "look at " + sensor + ", whose residual is the largest; check [gravity], and " + kRecordAgain};
     default: return {};
   }
 }
@@ -291,9 +298,7 @@ Refusal dead_columns_words(const std::vector<Finding>& dead, const CalibrationRu
               listed(ids))};
 }
 
-}  // namespace
-
-Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
+Refusal of_run(const CalibrationRun& run, const io::ArrayFile& array) {
   if (run.wiring.status == findings::WiringStatus::contradicted && run.refusal.code == Errc::ok)
     return {wiring_reason(run.wiring, array), wiring_remedy(run.wiring, array)};
   const std::vector<Finding> list = findings::refusal_of(run, array);
@@ -314,6 +319,13 @@ Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   return {out.reason + settling_words(settling, run, array), settling_remedy(settling, run, array)};
 }
 
+}  // namespace
+
+Refusal refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
+  const Refusal out = of_run(run, array);
+  return {in_field_words(out.reason, array.field), in_field_words(out.next, array.field)};
+}
+
 Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array) {
   const Finding f = findings::paper_refusal_of(run, array);
   const std::string without = "calibrate without --paper and mode = \"paper\"";
@@ -328,7 +340,7 @@ Refusal paper_refusal_of(const CalibrationRun& run, const io::ArrayFile& array) 
     case Code::paper_rank_too_high:
       return {fmt::format("its equations have rank {} where the length of gravity shows {} directions: the "
                           "disagreement of the sensors ({:.3g} mg0 rms) adds the others",
-                          f.value, f.limit, in_mg0(run.told().parity_rms_mps2)),
+                          f.value, f.limit, in_fine(array, run.told().parity_rms_mps2)),
               "look for an error beyond the noise (see `chi^2` in the report), or " + without};
     case Code::paper_undetermined:
       return {fmt::format("the stations show {} of the {} directions that the length of gravity can show", f.value,

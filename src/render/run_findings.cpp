@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "plumb/core/units.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -16,8 +17,6 @@ namespace {
 /// Samples that are worth one independent one before it is reported.
 constexpr double kToldCorrelation = 1.5;
 
-double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
-
 }  // namespace
 
 std::string findings_text(const Verdict& last, const io::ArrayFile& array) {
@@ -25,8 +24,9 @@ std::string findings_text(const Verdict& last, const io::ArrayFile& array) {
   const NormMismatch& gravity = last.norm_mismatch;
   if (gravity.configure_mps2 > 0.0) {
     out += fmt::format("gravity     off by {} mg0, within {:.2f} mg0: configure [gravity] value = \"{:.5f} m/s^2\"\n",
-                       unsigned_zero(fmt::format("{:+.2f}", mg0(gravity.length_mps2))), mg0(gravity.length_bound_mps2),
-                       gravity.configure_mps2);
+                       unsigned_zero(fmt::format("{:+.2f}", in_fine(array, gravity.length_mps2))),
+                       in_fine(array, gravity.length_bound_mps2),
+                       io::units_of(array.field).coarse_per_inside * gravity.configure_mps2);
   }
   if (last.noise_factor > 1.0) {
     out +=
@@ -45,8 +45,9 @@ std::string findings_text(const Verdict& last, const io::ArrayFile& array) {
         "calibration or a covariance that is too small; {}. "
         "Remedy: calibrate again\n",
         count_text(calibration.attitudes, "attitude"), calibration.ratio,
-        calibration.refused ? std::string("no output is valid")
-                            : fmt::format("every limit is wider by {:.2f} mg0", mg0(calibration.tolerance_mps2)));
+        calibration.refused
+            ? std::string("no output is valid")
+            : fmt::format("every limit is wider by {:.2f} mg0", in_fine(array, calibration.tolerance_mps2)));
   }
   return out;
 }

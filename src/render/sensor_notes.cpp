@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "plumb/render/field_words.hpp"
+
 #include <cmath>
 
 #include "plumb/render/figures.hpp"
@@ -41,10 +43,10 @@ SensorNote noise_note_of(const session::MonitorRun& run, const io::ArrayFile& ar
   return {"noisy",
           fmt::format("{} scatters by {:.3g} mg0, {:.3g} times the {:.3g} mg0 declared, in {} while the others "
                       "are at rest",
-                      id, in_mg0(shown), shown / declared, in_mg0(declared),
+                      id, in_fine(array, shown), shown / declared, in_fine(array, declared),
                       count_text(counts_of(run, i).scattering_blocks, "block")),
           fmt::format("{}; if {} is sound and always scatters like this, state noise = \"{:.3g} mg0\" for it in {}; {}",
-                      check, id, in_mg0(shown), array.path, measure_noise_words(array))};
+                      check, id, in_fine(array, shown), array.path, measure_noise_words(array))};
 }
 
 /// Most sensors scatter and a few do not: that is no noise of each of them.
@@ -144,7 +146,7 @@ std::vector<SensorNote> sensor_notes(const session::MonitorRun& run, const io::A
     const double rate = static_cast<double>(run.last.drift_mps2_per_h[at(i)]);
     if (rate == 0.0) continue;
     drifts += fmt::format("{}{} {:+.3g} m/s^2/h ({:+.3g} mg0/h)", drifting++ == 0 ? "" : ", ", name_of(sensors, i),
-                          rate, in_mg0(rate));
+                          io::units_of(array.field).coarse_per_inside * rate, in_fine(array, rate));
   }
   if (drifting > 0)
     out.push_back(

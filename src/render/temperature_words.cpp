@@ -8,6 +8,7 @@
 #include "fit_words.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/findings/fit_remarks.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -59,7 +60,7 @@ std::string forecast_words(const TemperatureReport& t, const io::ArrayFile& arra
   std::string out;
   for (const TemperatureForecast& f : t.forecast) {
     out += fmt::format("{}{:.3g} degC: {:.3g} mg0 ({}), direction {:.2g} deg", out.empty() ? "at " : "; at ", f.degc,
-                       in_mg0(f.reading_mps2), id_of(array, f.sensor), deg_from_rad(f.tilt_rad));
+                       in_fine(array, f.reading_mps2), id_of(array, f.sensor), deg_from_rad(f.tilt_rad));
   }
   return out + "; 1 sigma";
 }

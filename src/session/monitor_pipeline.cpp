@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "clock_plan.hpp"
+#include "plumb/io/field_json.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/session/interrupt.hpp"
@@ -236,6 +237,7 @@ io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict)
   if (!verdict.tick && !every_sample_) return {};
   line_.clear();
   io::append_verdict_json(line_, verdict, array_, frame_);
+  if (field_ != io::FieldKind::gravity) line_ = io::in_field_units(line_, field_);
   return put_line(file_, line_, consistent_);
 }
 

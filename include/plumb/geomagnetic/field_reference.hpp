@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "plumb/geomagnetic/field_model.hpp"
+#include "plumb/io/field.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -67,6 +68,11 @@ struct StatedField {
 /// Refuses what is no field of the Earth: 15 000 to 80 000 nT (its extremes are 22 200 and 67 000 nT), dip within 90
 /// degrees, declination within 180, sigmas above 0 and below a tenth of the field, 10 and 180 degrees.
 io::FileExpected<FieldReference> stated_reference(const StatedField& stated);
+
+/// WMM2025 with `iscwsa_errors`, for the magnetic groups of an array file (`io::read_array_file`). What is alike at all
+/// places and what is drawn anew count together. Errors: those of `decimal_year` and `field_at`, with `field` a key of
+/// the file.
+io::FileExpected<io::MagneticReference> lookup(const io::MagneticPlace& place);
 
 /// "50123 nT" in tesla: nT, uT, mG, G or T, the blank before the unit may be left out. A number without unit is
 /// refused.

@@ -15,7 +15,8 @@ inline namespace PLUMB_ABI {
 /// Default 1-sigma of a gravity model [m/s^2]: 0.15 mg (anomaly, density and latitude, docs/theory.md, section 1.3).
 inline constexpr double kDefaultGravitySigma_mps2 = 0.15e-3 * kG0_mps2;
 
-enum class GravityModel : std::uint8_t { normal, paper, value, table };
+/// `magnetic`: not gravity, but the Earth's magnetic field in units of 4 uT, which the same code serves.
+enum class GravityModel : std::uint8_t { normal, paper, value, table, magnetic };
 const char* to_string(GravityModel model) noexcept;
 
 /// Length of gravity at the tool, with its uncertainty.
@@ -28,7 +29,7 @@ struct GravityReference {
   bool plausible() const noexcept;
   static constexpr auto fields() noexcept {
     return field_list(&GravityReference::g_mps2, &GravityReference::sigma_mps2,
-                      up_to(&GravityReference::model, GravityModel::table));
+                      up_to(&GravityReference::model, GravityModel::magnetic));
   }
 };
 
@@ -61,6 +62,11 @@ Expected<GravityReference> paper_gravity(double latitude_deg, double depth_m,
 /// A value that the user states. Errors: out_of_range outside 9.5 .. 10.2 m/s^2 (index 0) or a
 /// sigma below 0 or above 0.1 m/s^2 (index 5).
 Expected<GravityReference> given_gravity(double g_mps2, double sigma_mps2) noexcept;
+
+inline constexpr double kLeastField = 5.0, kMostField = 17.5;  ///< 20 and 70 uT
+
+/// Of a magnetic field. Errors: as `given_gravity`, outside of `kLeastField` to `kMostField`.
+Expected<GravityReference> given_field(double length, double sigma) noexcept;
 
 /// Piecewise linear in depth; depths strictly increasing; outside the table: out_of_range (index 2).
 Expected<GravityReference> table_gravity(const double* depth_m, const double* g_mps2, int count, double at_depth_m,

@@ -14,9 +14,11 @@
 #include "plumb/health/monitor_config.hpp"
 #include "plumb/health/stability.hpp"
 #include "plumb/io/array_motion.hpp"
+#include "plumb/io/field.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/known_attitude.hpp"
 #include "plumb/io/units.hpp"
+#include "plumb/motion/rate_monitor.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -59,12 +61,19 @@ struct InputSpec {
 
 inline constexpr Mat3 kIdentity3 = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 
+/// One group of sensors that measure one vector. The accelerometers of a file, with its other groups beside them, or
+/// one of those: then figures "in m/s^2" are in the group's inside unit (plumb/io/field.hpp).
 struct ArrayFile {
-  std::string path;
+  std::string path;  ///< of a group: with its name, "tool.toml#magnetometers"
   std::string name;
+  std::string group;  ///< empty: the accelerometers of the file
+  FieldKind field = FieldKind::gravity;
+  MagneticReference magnetic;     ///< of a magnetic group; its length is in `gravity` too
+  RateSetup rate;                 ///< of a rate group
+  std::vector<ArrayFile> groups;  ///< the [[group]]s of the file, beside its accelerometers only
   Datasheet datasheet;
-  SensorArray array;  ///< nominal axes, checked
-  GravityReference gravity;
+  SensorArray array;         ///< nominal axes, checked
+  GravityReference gravity;  ///< length of the vector at rest
   MonitorConfig monitor;
   InputSpec input;
   std::array<Stability, kCapacity> stability{};  ///< of each sensor since its calibration; all zero: not stated
@@ -76,10 +85,13 @@ struct ArrayFile {
   std::string text;                  ///< the file as read
 };
 
-FileExpected<ArrayFile> read_array_file(const std::string& path);
+/// "tool.toml#NAME" is the [[group]] of that name. `lookup` answers where a magnetic group states a place and a date;
+/// without one it is refused.
+FileExpected<ArrayFile> read_array_file(const std::string& path, const FieldLookup& lookup = {});
 
 /// The same from text; `path` is used in messages only.
-FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path);
+FileExpected<ArrayFile> parse_array_text(const std::string& text, const std::string& path,
+                                         const FieldLookup& lookup = {}, const std::string& group = "");
 
 /// Empty where the sensor states none.
 std::string package_of(const ArrayFile& array, int sensor);
@@ -94,9 +106,9 @@ Readings tolerance_mps2(const ArrayFile& array, double days_since_calibration) n
 /// The keys that state it, one a line, as the reader takes them; empty where nothing is stated.
 std::string stability_toml(const Stability& stability);
 
-/// FNV-1a (64 bit) over ids, axes, nominal coefficients and `reads`: what a calibration depends on.
+/// FNV-1a (64 bit) over ids, axes, nominal coefficients, `reads` and the field: what a calibration depends on.
 /// Names, limits, noise, priors, stability and the layout of the log do not enter.
-std::uint64_t fingerprint_of(const Datasheet& datasheet) noexcept;
+std::uint64_t fingerprint_of(const Datasheet& datasheet, FieldKind field = FieldKind::gravity) noexcept;
 
 }  // namespace io
 }  // namespace PLUMB_ABI

@@ -63,8 +63,14 @@ class EventsFile : public VerdictSink {
 /// One JSON line per block, or per sample (--verdicts, --every-sample).
 class VerdictsFile : public VerdictSink {
  public:
-  VerdictsFile(io::OutputFile file, const SensorArray& array, const Mat3& frame, bool every_sample, bool live)
-      : file_(std::move(file)), array_(array), frame_(frame), every_sample_(every_sample), consistent_(live) {}
+  VerdictsFile(io::OutputFile file, const SensorArray& array, const Mat3& frame, bool every_sample, bool live,
+               io::FieldKind field = io::FieldKind::gravity)
+      : file_(std::move(file)),
+        array_(array),
+        frame_(frame),
+        field_(field),
+        every_sample_(every_sample),
+        consistent_(live) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   stepping::Wanted wanted() const override {
     return every_sample_ ? stepping::Wanted::samples : stepping::Wanted::blocks;
@@ -75,6 +81,7 @@ class VerdictsFile : public VerdictSink {
   io::OutputFile file_;
   const SensorArray& array_;
   Mat3 frame_;
+  io::FieldKind field_;
   bool every_sample_;
   bool consistent_;
   std::string line_;

@@ -1,0 +1,50 @@
+/// A log through the monitor of redundant gyros.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/io/array_file.hpp"
+#include "plumb/io/log_reader.hpp"
+#include "plumb/motion/rate_monitor.hpp"
+#include "plumb/session/group_track.hpp"
+#include "plumb/session/log_spec.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+
+/// Something changed at this sample.
+struct RateEvent {
+  double time_s = 0.0;
+  SensorSet suspects, excluded, off_at_rest;  ///< as they are from now on
+  bool turned_at_rest = false;
+  MotionCause cause = MotionCause::none;
+};
+
+struct RateRun {
+  RateVerdict last;
+  std::uint64_t samples = 0, samples_at_rest = 0, blocks = 0;
+  SensorSet ever_excluded, ever_off_at_rest;
+  int turned_at_rest = 0;          ///< times that this was found anew
+  double worst_bound_radps = 0.0;  ///< of the means of two blocks, where they were valid
+  double bound_sum_radps = 0.0;
+  std::uint64_t bounded_blocks = 0;
+  std::vector<RateEvent> events;
+  io::LogStatistics log;
+  bool interrupted = false, stopped = false;
+  io::FileError stop;
+};
+
+/// `rest`: when the tool stands still, by its accelerometers; null: not known. Readings are those of the datasheet in
+/// the array file: bias and scale as stated there. Errors: the log cannot be opened; the monitor refuses the setup.
+io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest);
+
+/// One line of JSON, without a newline.
+std::string rate_event_json(const RateEvent& event, const SensorArray& array);
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,25 @@
+/// The array file of a command, or one of its groups: "tool.toml#magnetometers".
+#pragma once
+
+#include <string>
+
+#include "plumb/io/array_file.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace cli {
+
+/// Which groups of sensors a command serves.
+enum class Serves : std::uint8_t {
+  gravity,  ///< accelerometers
+  lengths,  ///< every field whose length is known at rest
+  all,
+};
+
+/// The file, with WMM2025 for magnetic groups that state a place and a date. Refuses a group that `command` does not
+/// serve.
+io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* command, Serves serves);
+
+}  // namespace cli
+}  // namespace PLUMB_ABI
+}  // namespace plumb

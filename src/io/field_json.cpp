@@ -1,0 +1,103 @@
+#include "plumb/io/field_json.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "plumb/core/units.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace io {
+namespace {
+
+struct Suffix {
+  std::string_view of_gravity, of_field;
+  double factor;
+};
+
+/// A name that holds a figure: 0.2 mg0 inside are 7.85 nT.
+constexpr std::string_view kUsualStability = "stability_0_2_mg0";
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+Json scaled_by(const Json& value, double factor) {  // NOLINT(misc-no-recursion) as deep as its lists
+  if (value.is_number()) return factor * value.get<double>();
+  if (!value.is_array()) return value;
+  Json out = Json::array();
+  for (const Json& one : value) out.push_back(scaled_by(one, factor));
+  return out;
+}
+
+constexpr double kNt = 1e3 / kInside_per_ut;
+/// The longer ones first.
+constexpr std::array<Suffix, 6> kMagnetic = {{{"_per_mps2", "_per_nt", 1.0 / kNt},
+                                              {"_mps2_per_h", "_nt_per_h", kNt},
+                                              {"_mps2_2", "_nt_2", kNt* kNt},
+                                              {"_mps2", "_nt", kNt},
+                                              {"_mg0", "_nt", 1e-3 * kG0_mps2* kNt},
+                                              {"_per_g0", "_per_ut", kInside_per_ut / kG0_mps2}}};
+
+Json of_magnetic(const Json& value) {  // NOLINT(misc-no-recursion) as deep as the result
+  if (value.is_array()) {
+    Json out = Json::array();
+    for (const Json& one : value) out.push_back(of_magnetic(one));
+    return out;
+  }
+  if (!value.is_object()) return value;
+  Json out = Json::object();
+  for (const auto& [old, one] : value.items()) {
+    std::string key = old;
+    if (const std::size_t at = key.find("gravity"); at != std::string::npos) key.replace(at, 7, "field");
+    double factor = 0.0;
+    if (key == kUsualStability) key = "stability_7_85_nt";
+    for (const Suffix& suffix : kMagnetic) {
+      if (one.is_object() || !ends_with(key, suffix.of_gravity)) continue;
+      key.replace(key.size() - suffix.of_gravity.size(), std::string::npos, suffix.of_field);
+      factor = suffix.factor;
+      break;
+    }
+    out[key] = factor > 0.0 ? scaled_by(one, factor) : of_magnetic(one);
+  }
+  return out;
+}
+
+/// The same keys, with lengths multiplied.
+Json stretched(const Json& value, double factor) {  // NOLINT(misc-no-recursion) as deep as the result
+  if (!value.is_structured()) return value;
+  Json out = value;
+  for (auto item = out.begin(); item != out.end(); ++item) {
+    double by = 0.0;
+    if (value.is_object()) {
+      const std::string& key = item.key();
+      by = ends_with(key, "_mps2_2")                                                            ? factor * factor
+           : ends_with(key, "_per_mps2")                                                        ? 1.0 / factor
+           : ends_with(key, "_mps2") || ends_with(key, "_mps2_per_h") || ends_with(key, "_mg0") ? factor
+                                                                                                : 0.0;
+    }
+    *item = by > 0.0 && !item->is_object() ? scaled_by(*item, by) : stretched(*item, factor);
+  }
+  return out;
+}
+
+}  // namespace
+
+Json in_field_units(const Json& value, FieldKind field) {
+  return field == FieldKind::magnetic ? of_magnetic(value) : value;
+}
+
+std::string in_field_units(const std::string& line, FieldKind field) {
+  if (field != FieldKind::magnetic) return line;
+  const bool newline = !line.empty() && line.back() == '\n';
+  return of_magnetic(parsed(line)).dump() + (newline ? "\n" : "");
+}
+
+Json with_fine_as_mg0(const Json& value, FieldKind field) {
+  if (field == FieldKind::gravity) return value;
+  return stretched(value, units_of(field).fine_per_inside / units_of(FieldKind::gravity).fine_per_inside);
+}
+
+}  // namespace io
+}  // namespace PLUMB_ABI
+}  // namespace plumb

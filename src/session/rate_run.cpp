@@ -1,0 +1,102 @@
+#include "plumb/session/rate_run.hpp"
+
+#include <cmath>
+
+#include "plumb/io/json_fields.hpp"
+#include "plumb/session/interrupt.hpp"
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace session {
+namespace {
+
+/// From so much of full scale on a reading counts as clipped, as in the monitor at rest.
+constexpr double kClipped = 0.995;
+
+SensorSet clipped_of(const io::ArrayFile& array, const Sample& sample) {
+  SensorSet out;
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    const double full = array.datasheet.sensor[a].full_scale_raw;
+    if (full > 0.0 && std::fabs(sample.raw[a]) >= kClipped * full) out = out.with(i);
+  }
+  return out;
+}
+
+/// What a run adds up from verdict to verdict.
+void take(const RateVerdict& now, double time_s, RateRun& run) {
+  RateEvent event{time_s, now.suspects, now.excluded, now.off_at_rest, now.turned_at_rest, now.cause};
+  const RateVerdict& before = run.last;
+  const bool changed = now.suspects != before.suspects || now.excluded != before.excluded ||
+                       now.off_at_rest != before.off_at_rest || now.turned_at_rest != before.turned_at_rest;
+  if (changed) run.events.push_back(event);
+  if (now.turned_at_rest && !before.turned_at_rest) ++run.turned_at_rest;
+  run.ever_excluded = run.ever_excluded | now.excluded;
+  run.ever_off_at_rest = run.ever_off_at_rest | now.off_at_rest;
+  if (now.block_ended) {
+    ++run.blocks;
+    if (now.block.validity != ForceValidity::none && std::isfinite(now.block.bound_radps)) {
+      ++run.bounded_blocks;
+      run.bound_sum_radps += now.block.bound_radps;
+      run.worst_bound_radps = std::fmax(run.worst_bound_radps, now.block.bound_radps);
+    }
+  }
+  run.last = now;
+}
+
+io::Json ids(SensorSet set, const SensorArray& array) {
+  io::Json out = io::Json::array();
+  for (int i = 0; i < array.size(); ++i) {
+    if (set.has(i)) out.push_back(array.row(i).id.data());
+  }
+  return out;
+}
+
+}  // namespace
+
+io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest) {
+  auto monitor = std::make_unique<RateMonitor>();
+  if (const Expected<void> made = monitor->configure(array.array, array.rate); !made) {
+    io::FileError error = io::from_error(made.error());
+    error.file = array.path;
+    error.field = "rate";
+    return tl::unexpected<io::FileError>(error);
+  }
+  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
+  if (!reader) return tl::unexpected<io::FileError>(reader.error());
+  reader->stop_when(interrupt_flag());
+  const SensorModel model = array.datasheet.model();
+  RateRun run;
+  Sample sample;
+  io::LogReader::Next next = io::LogReader::Next::row;
+  while ((next = reader->next(sample)) == io::LogReader::Next::row) {
+    RateSample one;
+    one.time_s = sample.time_s;
+    one.delivered = sample.delivered;
+    one.clipped = clipped_of(array, sample) & sample.delivered;
+    one.rate_radps = model.apply(sample.raw, sample.temperature_degc, sample.delivered);
+    one.at_rest = rest != nullptr && rest->at_rest(sample.time_s);
+    run.samples_at_rest += one.at_rest ? 1 : 0;
+    ++run.samples;
+    take(monitor->step(one), sample.time_s, run);
+  }
+  run.log = reader->statistics();
+  run.interrupted = interrupted();
+  run.stopped = next == io::LogReader::Next::error;
+  if (run.stopped) run.stop = reader->error();
+  return run;
+}
+
+std::string rate_event_json(const RateEvent& event, const SensorArray& array) {
+  return io::object({{"t_s", event.time_s},
+                     {"cause", to_string(event.cause)},
+                     {"suspects", ids(event.suspects, array)},
+                     {"excluded", ids(event.excluded, array)},
+                     {"off_at_rest", ids(event.off_at_rest, array)},
+                     {"turned_at_rest", event.turned_at_rest}})
+      .dump();
+}
+
+}  // namespace session
+}  // namespace PLUMB_ABI
+}  // namespace plumb

@@ -1,0 +1,242 @@
+// Groups of sensors of another field: plumb calibrate and monitor on a six-axis tool.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tool_runner.hpp"
+
+namespace groups_command_test {
+namespace {
+
+using namespace plumb_test;
+
+using Vec = std::array<double, 3>;
+using Mat = std::array<Vec, 3>;
+
+constexpr double kRoot3 = 0.5773502691896258;
+const Vec kAxes[] = {
+    {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {kRoot3, kRoot3, kRoot3}, {-kRoot3, kRoot3, kRoot3}, {kRoot3, -kRoot3, kRoot3}};
+constexpr double kGravity_mps2 = 9.81936, kField_nt = 51375.2, kDip_rad = 72.959 * 3.14159265358979 / 180.0;
+
+double along(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// What is wrong with the magnetometers from the fifth station on.
+enum class Fault { none, shifted, stuck, turned, gyro };
+
+/// A tool held still in `stations` attitudes, 3 s each, turned for half a second in between.
+class Recording {
+ public:
+  Recording(int stations, std::uint64_t seed, Fault fault) : random_(seed), fault_(fault) {
+    text_ = "a1,a2,a3,a4,m1,m2,m3,m4,g1,g2,g3,g4,g5,g6\n";
+    for (int k = 0; k < stations; ++k) {
+      const Mat attitude = any_attitude();
+      for (int j = 0; j < 150; ++j) row(attitude, {}, k, 0.0);
+      for (int j = 0; j < 25; ++j) row(any_attitude(), {0.5 * std::sin(0.3 * j), 0.8, 0.3}, k, 1.0);
+    }
+  }
+  const std::string& csv() const { return text_; }
+
+ private:
+  double noise(double sigma) { return std::normal_distribution<double>(0.0, sigma)(random_); }
+
+  Mat any_attitude() {
+    Vec a{}, b{};
+    do {
+      for (double& x : a) x = noise(1.0);
+      for (double& x : b) x = noise(1.0);
+    } while (along(a, a) < 0.1 || along(b, b) < 0.1);
+    const double la = std::sqrt(along(a, a));
+    for (double& x : a) x /= la;
+    const double on = along(a, b);
+    for (std::size_t k = 0; k < 3; ++k) b[k] -= on * a[k];
+    const double lb = std::sqrt(along(b, b));
+    for (double& x : b) x /= lb;
+    return {a, b, Vec{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+  }
+
+  void row(const Mat& r, const Vec& rate_radps, int station, double shake) {
+    Vec g{}, b{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      g[k] = kGravity_mps2 * r[2][k];
+      b[k] = kField_nt * (std::cos(kDip_rad) * r[0][k] + std::sin(kDip_rad) * r[2][k]);
+    }
+    const bool wrong = station >= 4;
+    if (wrong && fault_ == Fault::turned) {  // by ten degrees about x, against the accelerometers
+      const double c = std::cos(0.17), s = std::sin(0.17), y = b[1], z = b[2];
+      b[1] = c * y - s * z;
+      b[2] = s * y + c * z;
+    }
+    std::vector<double> cells;
+    for (std::size_t i = 0; i < 4; ++i)
+      cells.push_back((1.0 + kScale[i]) * (along(kAxes[i], g) + 0.02 * kOff[i]) + noise(0.003 + shake));
+    for (std::size_t i = 0; i < 4; ++i) {
+      double m = (1.0 - kScale[i]) * (along(kAxes[i], b) + 900.0 * kOff[3 - i]) + noise(20.0 + 300.0 * shake);
+      if (wrong && fault_ == Fault::shifted && i == 1) m += 1500.0;
+      if (wrong && fault_ == Fault::stuck && i == 2) m = held_;
+      if (i == 2) held_ = m;
+      cells.push_back(m);
+    }
+    for (std::size_t i = 0; i < 6; ++i)
+      cells.push_back(57.2957795 * along(kAxes[i], rate_radps) + noise(0.05) +
+                      (wrong && fault_ == Fault::gyro && i == 5 ? 25.0 : 0.0));
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      char cell[40];
+      std::snprintf(cell, sizeof cell, "%s%.7g", k == 0 ? "" : ",", cells[k]);
+      text_ += cell;
+    }
+    text_ += '\n';
+  }
+
+  static constexpr std::array<double, 4> kScale = {0.004, -0.006, 0.002, 0.005}, kOff = {1.0, -0.7, 0.4, -0.2};
+  std::mt19937_64 random_;
+  Fault fault_;
+  double held_ = 0.0;
+  std::string text_;
+};
+
+/// The example, calibrated once.
+const Directory& desk() {
+  static const Directory* const made = [] {
+    auto* where = new Directory;
+    write_text(*where / "tool.toml", read_text(std::string(PLUMB_SOURCE_DIR) + "/examples/six_axis.toml"));
+    write_text(*where / "stand.csv", Recording(30, 5, Fault::none).csv());
+    for (const char* const group : {"", "#mag"}) {
+      const Outcome outcome = run(*where, {"calibrate", "--array", std::string("tool.toml") + group, "--log",
+                                           "stand.csv", "--out", *group == '\0' ? "acc.json" : "mag.json"});
+      EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+    }
+    return where;
+  }();
+  return *made;
+}
+
+Outcome watched(Fault fault, std::vector<std::string> more = {}) {
+  write_text(desk() / "run.csv", Recording(16, 9, fault).csv());
+  std::vector<std::string> arguments = {"monitor", "--array", "tool.toml",    "--calibration", "acc.json", "--log",
+                                        "run.csv", "--group", "mag=mag.json", "--group",       "gyros"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run(desk(), arguments);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(GroupsCommand, MagnetometersAreCalibratedInTheirOwnUnits) {
+  const Outcome outcome =
+      run(desk(), {"calibrate", "--array", "tool.toml#mag", "--log", "stand.csv", "--out", "again.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "the magnetic field 51.375")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, " nT rms")) << outcome.out;
+  EXPECT_FALSE(has(outcome.out, "mg0")) << outcome.out;
+  EXPECT_FALSE(has(outcome.out, "m/s^2")) << outcome.out;
+  const Outcome json =
+      run(desk(), {"calibrate", "--array", "tool.toml#mag", "--log", "stand.csv", "--out", "again.json", "--json"});
+  const auto report = nlohmann::json::parse(json.out);
+  EXPECT_NEAR(report["field_nt"].get<double>(), kField_nt, 5.0);
+  EXPECT_FALSE(has(json.out, "mps2")) << json.out;
+  for (std::size_t i = 0; i < 4; ++i) {
+    // Bias behind the scale: what the log was made with.
+    const double off_nt = 900.0 * std::array<double, 4>{-0.2, 0.4, -0.7, 1.0}[i];
+    EXPECT_NEAR(report["sensors"][i]["bias_nt"].get<double>(), off_nt, 15.0) << i;
+  }
+}
+
+TEST(GroupsCommand, AHealthyToolIsNominalInEveryGroupAndTheDipAgrees) {
+  const Outcome outcome =
+      watched(Fault::none, {"--report", "health.html", "--verdicts", "v.jsonl", "--events", "e.jsonl"});
+  EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "== mag: 4 magnetometers")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "gravity and the field agree")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "== gyros: 6 gyros")) << outcome.out;
+  EXPECT_TRUE(has(read_text(desk() / "v-mag.jsonl"), "\"field_nt\":[")) << "in its own unit";
+  EXPECT_FALSE(has(read_text(desk() / "v-mag.jsonl"), "mps2"));
+  EXPECT_TRUE(has(read_text(desk() / "v.jsonl"), "\"gravity_mps2\":["));
+  EXPECT_TRUE(has(read_text(desk() / "health-mag.html"), "nT"));
+  EXPECT_FALSE(has(read_text(desk() / "health-mag.html"), "mg0"));
+  EXPECT_FALSE(has(read_text(desk() / "health-mag.json"), "mps2"));
+  EXPECT_TRUE(has(read_text(desk() / "health.html"), "mg0"));
+}
+
+TEST(GroupsCommand, AShiftedAndAStuckMagnetometerAreNamed) {
+  const Outcome shifted = watched(Fault::shifted);
+  EXPECT_TRUE(has(shifted.out, "excluded    m2")) << shifted.out;
+  EXPECT_TRUE(has(shifted.out, "in service  a1, a2, a3, a4")) << shifted.out;
+  const Outcome stuck = watched(Fault::stuck);
+  EXPECT_TRUE(has(stuck.out, "excluded    m3")) << stuck.out;
+}
+
+TEST(GroupsCommand, AFaultyGyroIsNamed) {
+  const Outcome outcome = watched(Fault::gyro, {"--events", "g.jsonl"});
+  EXPECT_TRUE(has(outcome.out, "excluded    g6")) << outcome.out;
+  EXPECT_TRUE(has(read_text(desk() / "g-gyros.jsonl"), "\"excluded\":[\"g6\"]"));
+}
+
+// Both groups agree in themselves; only the angle between the two vectors shows it.
+TEST(GroupsCommand, AGroupTurnedAgainstTheOtherIsToldByTheDip) {
+  const Outcome outcome = watched(Fault::turned);
+  EXPECT_EQ(outcome.code, 6) << outcome.out << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "DISAGREE")) << outcome.out;
+  const Outcome json = watched(Fault::turned, {"--json"});
+  EXPECT_EQ(json.code, 6);
+  EXPECT_TRUE(has(json.out, "\"blocks_disagreeing\":")) << json.out;
+  EXPECT_TRUE(has(json.out, "\"group\":\"mag\"")) << json.out;
+}
+
+struct Wrong {
+  std::vector<std::string> arguments;
+  const char* says;
+};
+
+TEST(GroupsCommand, WhatIsAskedForWronglyIsSaid) {
+  const Wrong cases[] = {
+      {{"--group", "magg=mag.json"}, "no group \"magg\""},
+      {{"--group", "mag"}, "has no calibration"},
+      {{"--group", "gyros=mag.json"}, "write --group gyros"},
+      {{"--group", "gyros", "--group", "gyros"}, "given twice"},
+      {{"--group", "mag=acc.json"}, "belongs to another array"},
+      {{"--group", "gyros", "--limits"}, "--limits"},
+      {{"--group", "gyros", "--events", "-"}, "name files"},
+  };
+  write_text(desk() / "run.csv", Recording(4, 9, Fault::none).csv());
+  for (const Wrong& wrong : cases) {
+    std::vector<std::string> arguments = {"monitor",  "--array", "tool.toml", "--calibration",
+                                          "acc.json", "--log",   "run.csv"};
+    arguments.insert(arguments.end(), wrong.arguments.begin(), wrong.arguments.end());
+    const Outcome outcome = run(desk(), arguments);
+    EXPECT_NE(outcome.code, 0) << wrong.says;
+    EXPECT_TRUE(has(outcome.err, wrong.says)) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "Remedy: ")) << outcome.err;
+  }
+  const Outcome stream =
+      run(desk(), {"monitor", "--array", "tool.toml", "--calibration", "acc.json", "--group", "gyros"}, "run.csv");
+  EXPECT_EQ(stream.code, 2);
+  EXPECT_TRUE(has(stream.err, "standard input")) << stream.err;
+}
+
+TEST(GroupsCommand, ACommandThatDoesNotServeAGroupSaysSo) {
+  const Outcome rate =
+      run(desk(), {"calibrate", "--array", "tool.toml#gyros", "--log", "stand.csv", "--out", "x.json"});
+  EXPECT_EQ(rate.code, 2);
+  EXPECT_TRUE(has(rate.err, "does not serve a group of gyros")) << rate.err;
+}
+
+// Magnetometers in uT that are given as G, and the date beyond the model.
+TEST(GroupsCommand, AWrongUnitAndAWrongDateAreGuessedAndTold) {
+  const std::string text = read_text(desk() / "tool.toml");
+  write_text(desk() / "gauss.toml", with(text, "unit = \"nT\"", "unit = \"mG\""));
+  const Outcome unit = run(desk(), {"calibrate", "--array", "gauss.toml#mag", "--log", "stand.csv", "--out", "x.json"});
+  EXPECT_EQ(unit.code, 4) << unit.out << unit.err;
+  EXPECT_TRUE(has(unit.err, "as long as the magnetic field")) << unit.err;
+  EXPECT_TRUE(has(unit.err, "nT")) << unit.err;
+  write_text(desk() / "late.toml", with(text, "2026-03-31", "2031-03-31"));
+  const Outcome date = run(desk(), {"calibrate", "--array", "late.toml#mag", "--log", "stand.csv", "--out", "x.json"});
+  EXPECT_EQ(date.code, 3);
+  EXPECT_TRUE(has(date.err, "group[1].reference.date")) << date.err;
+  EXPECT_TRUE(has(date.err, "2025.0 to 2030.0")) << date.err;
+}
+
+}  // namespace
+}  // namespace groups_command_test
