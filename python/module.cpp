@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "motion_row.hpp"
+#include "plumb/geomagnetic/field_reference.hpp"
 
 namespace plumb_python {
 
@@ -49,14 +50,22 @@ PYBIND11_MODULE(plumb, module) {
   py::class_<plumb::io::ArrayFile, Array>(module, "Array",
                                           "An array of sensors, its place and its log: what an array file (TOML) says.")
       .def_static(
-          "read", [](const std::string& path) { return shared(taken(plumb::io::read_array_file(path))); },
-          py::arg("path"), "Read an array file. Raises Error with file, line, field and remedy.")
+          "read",
+          [](const std::string& path) {
+            return shared(taken(plumb::io::read_array_file(path, plumb::geomagnetic::lookup)));
+          },
+          py::arg("path"),
+          "Read an array file, or a group of it: 'tool.toml#mag'. Raises Error with file, line, field and remedy.")
       .def_static(
           "parse", [](const std::string& text) { return shared(taken(plumb::io::parse_array_text(text, "<text>"))); },
           py::arg("text"), "The same from the text of one.")
       .def_property_readonly("sensors", &ids, "Ids, in order.")
       .def_property_readonly("axes", &axes, "Nominal unit axes, (n, 3), tool frame.")
       .def_readonly("name", &plumb::io::ArrayFile::name)
+      .def_property_readonly(
+          "field", [](const plumb::io::ArrayFile& a) { return std::string(to_string(a.field)); },
+          "What the sensors measure: 'gravity', 'magnetic' or 'rate'. What is called m/s^2 here is 4 uT of a magnetic "
+          "field and rad/s of a rate.")
       .def_property_readonly(
           "gravity_mps2", [](const plumb::io::ArrayFile& a) { return a.gravity.g_mps2; },
           "Length of gravity at the place that the file names [m/s^2].")

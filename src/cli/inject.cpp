@@ -98,7 +98,7 @@ io::ExitCode run_inject(const InjectOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb inject", Serves::gravity);
+  const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb inject", Serves::all);
   if (!array) return report(array.error());
   const scenario::FaultContext context = io::fault_context(*array);
   const io::FileExpected<std::vector<scenario::Fault>> named = faults_of(options.faults, *array);

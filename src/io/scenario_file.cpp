@@ -184,6 +184,11 @@ scenario::FaultContext fault_context(const ArrayFile& array) {
     case RawUnit::Kind::count: context.raw = scenario::FaultContext::Raw::count; break;
     case RawUnit::Kind::acceleration: context.raw = scenario::FaultContext::Raw::acceleration; break;
   }
+  switch (array.field) {
+    case FieldKind::gravity: context.vector = scenario::FaultContext::Vector::gravity; break;
+    case FieldKind::magnetic: context.vector = scenario::FaultContext::Vector::magnetic; break;
+    case FieldKind::rate: context.vector = scenario::FaultContext::Vector::rate; break;
+  }
   context.base_per_raw = array.input.unit.base_per_unit;
   context.raw_unit = array.input.unit.name;
   return context;

@@ -65,7 +65,7 @@ Result<double> read_level(const FaultContext& context, int sensor, Text text) {
   }
   auto level = read_quantity(text, level_units(context, sensor), "level");
   if (level || context.raw == FaultContext::Raw::acceleration) return level;
-  const auto acceleration = read_quantity(text, acceleration_units(), "level");
+  const auto acceleration = read_quantity(text, acceleration_units(context.vector), "level");
   if (!acceleration) return refuse(level.error() + ", as FS for full scale, or as an acceleration (1g0)");
   const SensorCoefficients& nominal = sheet.coefficients;
   return nominal.scale[0] * (*acceleration + nominal.bias[0]);
@@ -109,7 +109,7 @@ Result<double> read_bare(Text text, const char* what, const char* example) {
 Result<double> read_step(const FaultContext& context, int sensor, Text text) {
   auto step = read_quantity(text, level_units(context, sensor), "step");
   if (step || context.raw == FaultContext::Raw::acceleration) return step;
-  const auto acceleration = read_quantity(text, acceleration_units(), "step");
+  const auto acceleration = read_quantity(text, acceleration_units(context.vector), "step");
   if (!acceleration) return step;
   return std::abs(sensor_of(context, sensor).coefficients.scale[0]) * *acceleration;
 }
@@ -144,7 +144,7 @@ Result<Fault> read_pair(Fault fault, Text text, const char* example, First read_
 }
 
 Result<Fault> read_two(const FaultContext& context, Fault fault, Text text) {
-  const auto acceleration = [](Text t) { return read_quantity(t, acceleration_units(), "size"); };
+  const auto acceleration = [&context](Text t) { return read_quantity(t, acceleration_units(context.vector), "size"); };
   const auto share = [](Text t) { return read_quantity(t, share_units(), "share"); };
   const auto time = [](Text t) { return read_quantity(t, time_units(), "time"); };
   const auto angle = [](Text t) { return read_quantity(t, angle_units(), "angle"); };
@@ -168,8 +168,8 @@ Result<double> read_one(const FaultContext& context, const Fault& fault, Text te
     case SizeForm::level: return read_level(context, fault.sensor, text);
     case SizeForm::dither: return read_dither(context, fault.sensor, text);
     case SizeForm::step: return read_step(context, fault.sensor, text);
-    case SizeForm::acceleration: return read_quantity(text, acceleration_units(), "size");
-    case SizeForm::drift: return read_quantity(text, drift_units(), "drift");
+    case SizeForm::acceleration: return read_quantity(text, acceleration_units(context.vector), "size");
+    case SizeForm::drift: return read_quantity(text, drift_units(context.vector), "drift");
     case SizeForm::share: return read_quantity(text, share_units(), "share");
     case SizeForm::pattern: return read_pattern(text);
     case SizeForm::sensor: return read_other(context, text);

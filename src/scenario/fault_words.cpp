@@ -30,7 +30,7 @@ TextUnits level_units(const FaultContext& context, int sensor) {
       break;
     case FaultContext::Raw::count: units.push_back({"count", 1.0 / context.base_per_raw}); break;
     case FaultContext::Raw::acceleration:
-      for (const TextUnit& unit : acceleration_units()) {
+      for (const TextUnit& unit : acceleration_units(context.vector)) {
         units.push_back({unit.name, unit.factor / context.base_per_raw, unit.print});
       }
       break;
@@ -68,17 +68,18 @@ std::string size_text(const Fault& fault, const FaultContext& context, const cha
     case SizeForm::level:
     case SizeForm::step: return level(first);
     case SizeForm::range: return level(first) + between + level(second);
-    case SizeForm::acceleration: return quantity_text(first, acceleration_units(), gap);
-    case SizeForm::drift: return quantity_text(first, drift_units(), gap);
+    case SizeForm::acceleration: return quantity_text(first, acceleration_units(context.vector), gap);
+    case SizeForm::drift: return quantity_text(first, drift_units(context.vector), gap);
     case SizeForm::share: return first < 1.0 ? share_text(first) : std::string();
     case SizeForm::pattern: return to_string(static_cast<BitPattern>(static_cast<int>(first)));
     case SizeForm::sensor: return other(first);
     case SizeForm::temperature: return shortest_text(first) + gap + "degC";
     case SizeForm::time: return quantity_text(first, time_units(), gap);
     case SizeForm::acceleration_share:
-      return quantity_text(first, acceleration_units(), gap) + "*" + share_text(second);
+      return quantity_text(first, acceleration_units(context.vector), gap) + "*" + share_text(second);
     case SizeForm::acceleration_time:
-      return quantity_text(first, acceleration_units(), gap) + "*" + quantity_text(second, time_units(), gap);
+      return quantity_text(first, acceleration_units(context.vector), gap) + "*" +
+             quantity_text(second, time_units(), gap);
     case SizeForm::sensor_share: return other(first) + "*" + share_text(second);
     case SizeForm::angle_angle:
       return quantity_text(first, angle_units(), gap) +

@@ -32,7 +32,7 @@ std::string names_of(const TextUnits& units) {
 
 }  // namespace
 
-const TextUnits& acceleration_units() {
+const TextUnits& acceleration_units(FaultContext::Vector of) {
   static const TextUnits units = {{"m/s^2", 1.0},
                                   {"mg0", kG0_mps2 * 1e-3},
                                   {"g0", kG0_mps2},
@@ -44,6 +44,24 @@ const TextUnits& acceleration_units() {
                                   {"Gal", 1e-2, false},
                                   {"mGal", 1e-5, false},
                                   {"ft/s^2", 0.3048, false}};
+  constexpr double kUt = 0.25;
+  static const TextUnits magnetic = {{"uT", kUt},
+                                     {"nT", kUt * 1e-3},
+                                     {"mT", kUt * 1e3, false},
+                                     {"T", kUt * 1e6, false},
+                                     {"G", kUt * 100.0, false},
+                                     {"mG", kUt * 0.1, false},
+                                     {"gamma", kUt * 1e-3, false}};
+  static const TextUnits rate = {{"rad/s", 1.0},
+                                 {"deg/s", kPi / 180.0},
+                                 {"dps", kPi / 180.0, false},
+                                 {"mrad/s", 1e-3, false},
+                                 {"deg/h", kPi / 648000.0, false}};
+  switch (of) {
+    case FaultContext::Vector::gravity: return units;
+    case FaultContext::Vector::magnetic: return magnetic;
+    case FaultContext::Vector::rate: return rate;
+  }
   return units;
 }
 
@@ -63,11 +81,11 @@ const TextUnits& share_units() {
   return units;
 }
 
-TextUnits drift_units() {
+TextUnits drift_units(FaultContext::Vector of) {
   TextUnits units;
   for (const TextUnit& per : time_units()) {
     if (per.factor < 1.0) continue;
-    for (const TextUnit& unit : acceleration_units()) {
+    for (const TextUnit& unit : acceleration_units(of)) {
       units.push_back({unit.name + "/" + per.name, unit.factor / per.factor, unit.print});
     }
   }

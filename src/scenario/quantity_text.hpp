@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plumb/core/config.hpp"
+#include "plumb/scenario/fault_text.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -21,11 +22,11 @@ struct TextUnit {
 };
 using TextUnits = std::vector<TextUnit>;
 
-const TextUnits& acceleration_units();  ///< -> m/s^2
-const TextUnits& time_units();          ///< -> s
-const TextUnits& angle_units();         ///< -> rad
-const TextUnits& share_units();         ///< -> 1
-TextUnits drift_units();                ///< -> m/s^2 per s
+const TextUnits& acceleration_units(FaultContext::Vector of);  ///< -> m/s^2, 4 uT or rad/s
+const TextUnits& time_units();                                 ///< -> s
+const TextUnits& angle_units();                                ///< -> rad
+const TextUnits& share_units();                                ///< -> 1
+TextUnits drift_units(FaultContext::Vector of);                ///< -> the same per s
 
 /// A number and the text behind it. A leading '+' is allowed.
 struct NumberText {

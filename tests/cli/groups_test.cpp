@@ -185,6 +185,23 @@ TEST(GroupsCommand, AGroupTurnedAgainstTheOtherIsToldByTheDip) {
   EXPECT_TRUE(has(json.out, "\"group\":\"mag\"")) << json.out;
 }
 
+TEST(GroupsCommand, FaultsAreInjectedInTheUnitsOfTheGroup) {
+  write_text(desk() / "run.csv", Recording(16, 9, Fault::none).csv());
+  const Outcome injected = run(desk(), {"inject", "--array", "tool.toml#mag", "--log", "run.csv", "--fault",
+                                        "m4:bias=-1500nT@14s", "--out", "bad.csv"});
+  ASSERT_EQ(injected.code, 0) << injected.err;
+  const Outcome seen =
+      run(desk(), {"monitor", "--array", "tool.toml#mag", "--calibration", "mag.json", "--log", "bad.csv"});
+  EXPECT_TRUE(has(seen.out, "excluded    m4")) << seen.out << seen.err;
+  const Outcome gyro = run(desk(), {"inject", "--array", "tool.toml#gyros", "--log", "run.csv", "--fault",
+                                    "g2:stuck=3deg/s@14s", "--out", "bad.csv"});
+  EXPECT_EQ(gyro.code, 0) << gyro.err;
+  const Outcome unit = run(desk(), {"inject", "--array", "tool.toml#mag", "--log", "run.csv", "--fault",
+                                    "m4:bias=5mg0@14s", "--out", "bad.csv"});
+  EXPECT_EQ(unit.code, 2);
+  EXPECT_TRUE(has(unit.err, "nT")) << unit.err;
+}
+
 struct Wrong {
   std::vector<std::string> arguments;
   const char* says;

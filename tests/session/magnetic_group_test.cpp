@@ -109,6 +109,7 @@ std::vector<Station> stations_of(Tool& tool, int count) {
 /// The directions in the frame of the fit, which may be turned as a whole: angles between two of them count.
 double angle_rad(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
+// Verifies: REQ-240
 // The length of the field is all that is needed: hard iron, soft iron and cross-axis come out as biases, scales and
 // axes do.
 RC_GTEST_PROP(MagneticGroup, HardAndSoftIronAreCalibratedAway, ()) {

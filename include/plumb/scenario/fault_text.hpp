@@ -43,8 +43,12 @@ namespace scenario {
 /// What the text of a fault is read against: ids, scale factors and ranges, and the unit of the log.
 struct FaultContext {
   enum class Raw : std::uint8_t { voltage, count, acceleration };
+  /// What the sensors measure. Of others than gravity "acceleration" is a magnetic field in units of 4 uT or a rate in
+  /// rad/s (plumb/io/field.hpp).
+  enum class Vector : std::uint8_t { gravity, magnetic, rate };
   Datasheet datasheet;
   Raw raw = Raw::voltage;
+  Vector vector = Vector::gravity;
   double base_per_raw = 1.0;   ///< V, count or m/s^2 per raw unit of the log
   std::string raw_unit = "V";  ///< its name
 };
