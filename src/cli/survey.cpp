@@ -27,10 +27,14 @@ struct SurveyOptions {
   double false_alarm = 0.0027;
   double risk = 1e-4;
   bool axial = false;
+  bool align = false;
+  std::string alignment_sigma = "0.5 deg";
   std::string csv;
   bool json = false;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
+
+constexpr double kMostStated_rad = rad_from_deg(30.0);  // beyond, Gauss and Newton may end elsewhere
 
 constexpr const char* kSurveyAbout =
     "Inclination, toolface and azimuth of survey stations from accelerometers and magnetometers, each with its\n"
@@ -47,6 +51,20 @@ constexpr const char* kSurveyNotes =
     "and\n"
     "limits, and what is refused.\n\n";
 
+io::FileExpected<double> alignment_within(const SurveyOptions& options) {
+  const auto refused = [](const char* option, const char* what, const char* remedy) {
+    return tl::unexpected<io::FileError>(io::FileError{option, 0, "", what, remedy, io::ExitCode::usage});
+  };
+  if (options.axial)
+    return refused("--align-magnetometers", "it cannot be asked for together with --axial: both explain the same dips",
+                   "leave one out; the alignment takes axial interference of 220 nT (1 sigma) into account");
+  const io::FileExpected<double> sigma =
+      quantity_option(io::Quantity::angle, "--alignment-sigma", options.alignment_sigma);
+  if (sigma && !(*sigma > 0.0 && *sigma <= kMostStated_rad))
+    return refused("--alignment-sigma", "it must be above 0 and at most 30 deg", "state it as in \"0.5 deg\"");
+  return sigma;
+}
+
 io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& options) {
   survey::SurveySettings out;
   out.station.checks.limits = options.limits;
@@ -54,6 +72,11 @@ io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& op
   out.integrity_risk = options.risk;
   out.north = options.north;
   out.correct_axial = options.axial;
+  if (options.align) {
+    const io::FileExpected<double> within = alignment_within(options);
+    if (!within) return tl::unexpected<io::FileError>(within.error());
+    out.align_within_rad = *within;
+  }
   if (!options.convergence.empty()) {
     const io::FileExpected<double> angle = quantity_option(io::Quantity::angle, "--convergence", options.convergence);
     if (!angle) return tl::unexpected<io::FileError>(angle.error());
@@ -85,6 +108,10 @@ io::ExitCode verdict(const SurveyOptions& options, const survey::Survey& found) 
     return report({options.stations, 0, "",
                    "the axial interference could not be estimated: " + found.axial->error().text(),
                    "leave --axial out, or add stations at other attitudes", io::ExitCode::not_accepted});
+  if (found.alignment && !*found.alignment)
+    return report({options.stations, 0, "",
+                   "the alignment of the magnetometers could not be estimated: " + found.alignment->error().text(),
+                   "leave --align-magnetometers out, or add stations at other attitudes", io::ExitCode::not_accepted});
   for (const survey::SurveyStation& s : found.stations) {
     if (s.status != survey::StationStatus::rejected) return io::ExitCode::done;
   }
@@ -181,6 +208,12 @@ Command add_survey(const Options& tool) {
   add_checks(command, *options);
   command.add_flag("--axial", options->axial,
                    "estimate the axial interference of the drill string from all stations, and take it off");
+  command.add_flag("--align-magnetometers", options->align,
+                   "estimate from the dips how the magnetometers are turned against the accelerometers, and turn back");
+  command
+      .add_option("--alignment-sigma", options->alignment_sigma,
+                  "how far they may be turned, 1 sigma; an estimate has to be better (default \"0.5 deg\")")
+      .type_name("\"0.5 deg\"");
   command.add_option("--csv", options->csv, "write the survey as a table").type_name("OUT.csv");
   command.add_flag("--json", options->json, "JSON instead of text, for machines");
   add_bad_row_option(command, options->on_bad_row);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/printable.hpp"
 #include "plumb/render/survey_report.hpp"
@@ -67,6 +69,40 @@ Json axial_json(const survey::Survey& s) {
                  {"freedom", e.freedom}});
 }
 
+Json axis_json(const survey::AlignmentAxis& axis) {
+  return object({{"direction", axis.direction},
+                 {"sigma_deg", std::isfinite(axis.sigma_rad) ? Json(deg_from_rad(axis.sigma_rad)) : Json()},
+                 {"told", axis.told},
+                 {"east_seen", axis.seen},
+                 {"with", axis.with},
+                 {"correlation", axis.correlation}});
+}
+
+Json alignment_json(const survey::Survey& s) {
+  if (!s.alignment) return nullptr;
+  Json axes = Json::array();
+  for (const survey::AlignmentAxis& axis : *s.alignment ? (*s.alignment)->axis : s.alignment->error().axis)
+    axes.push_back(axis_json(axis));
+  if (!*s.alignment)
+    return object({{"estimated", false},
+                   {"why", s.alignment->error().text()},
+                   {"rank", s.alignment->error().rank},
+                   {"axes", axes}});
+  const survey::JointAlignment& a = **s.alignment;
+  const auto degrees = [](const Vec3& rad) {
+    return Json{deg_from_rad(rad[0]), deg_from_rad(rad[1]), deg_from_rad(rad[2])};
+  };
+  return object({{"estimated", true},
+                 {"turn_deg", degrees(a.turn_rad)},
+                 {"sigma_deg", degrees(a.sigma_rad)},
+                 {"rank", 3},
+                 {"axes", axes},
+                 {"held_out_dip_deg", deg_from_rad(a.held_out.rms_rad)},
+                 {"held_out_normalised", a.held_out.normalised},
+                 {"chi_square", a.chi_square},
+                 {"freedom", a.freedom}});
+}
+
 Json path_json(const survey::Survey& s) {
   Json out = Json::array();
   if (!s.path) return out;
@@ -101,6 +137,7 @@ nlohmann::ordered_json survey_json(const SurveyReport& r) {
                  {"stations", std::move(stations)},
                  {"error_tests", std::move(tests)},
                  {"axial_interference", axial_json(r.survey)},
+                 {"magnetometer_alignment", alignment_json(r.survey)},
                  {"path", path_json(r.survey)}});
 }
 

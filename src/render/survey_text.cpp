@@ -97,6 +97,24 @@ std::string axial_text(const survey::Survey& s) {
       e.value[z] * 1e9, e.sigma[z] * 1e9, e.largest_reference_correlation);
 }
 
+std::string alignment_text(const survey::Survey& s) {
+  if (!s.alignment) return "";
+  if (!*s.alignment) return "Alignment of the magnetometers: not estimated: " + s.alignment->error().text() + ".\n";
+  const survey::JointAlignment& a = **s.alignment;
+  const auto three = [](const Vec3& rad) {
+    return fmt::format("{:.3f}, {:.3f}, {:.3f}", deg_from_rad(rad[0]), deg_from_rad(rad[1]), deg_from_rad(rad[2]));
+  };
+  const survey::AlignmentAxis& weakest = a.axis[0];
+  std::string out = fmt::format(
+      "Alignment of the magnetometers: turned by {} deg about tool x, y, z (1 sigma {} deg), and the field of every "
+      "station turned with them. Weakest about {}: {:.3f} deg",
+      three(a.turn_rad), three(a.sigma_rad), weakest.name(), deg_from_rad(weakest.sigma_rad));
+  if (!weakest.with.empty())
+    out += fmt::format(", which holds its correlation of {:.2f} with {}", weakest.correlation, weakest.with);
+  return out + fmt::format(". Dips held out: {:.3f} deg rms, {:.2f} times their sigma.\n",
+                           deg_from_rad(a.held_out.rms_rad), a.held_out.normalised);
+}
+
 std::string path_text(const survey::Survey& s) {
   if (!s.path) return "Path: none: " + s.path.error().text() + "\n";
   const survey::PathPoint& end = s.path->back();
@@ -130,7 +148,7 @@ std::string survey_text(const SurveyReport& r) {
   } else {
     out += "Error tests: none: " + r.survey.tests_refused + "\n";
   }
-  return out + axial_text(r.survey) + path_text(r.survey);
+  return out + axial_text(r.survey) + alignment_text(r.survey) + path_text(r.survey);
 }
 
 }  // namespace render

@@ -23,6 +23,15 @@ std::optional<PathStation> path_station(const SurveyStation& station, North nort
                      azimuth ? azimuth->rad : 0.0};
 }
 
+/// By what could be estimated, else as it was read.
+SurveyStation judged(const ReferencedStation& at, const Survey& found, const StationSettings& settings) {
+  if (found.alignment && *found.alignment)
+    return judge_corrected(aligned(at.measured, **found.alignment), at.reference, settings);
+  if (found.axial && *found.axial)
+    return judge_corrected(corrected(at.measured, **found.axial), at.reference, settings);
+  return judge_station(at.measured, at.reference, settings);
+}
+
 }  // namespace
 
 OrUndefined<Angle> azimuth_from(const SurveyStation& station, North north) {
@@ -56,6 +65,7 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
              {},
              {},
              {},
+             {},
              {}};
   ErrorTestSettings tests;
   tests.tool = settings.station.tool;
@@ -64,14 +74,18 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
     out.tests = *std::move(found);
   else
     out.tests_refused = found.error().text();
-  if (settings.correct_axial) out.axial = estimate_axial_interference(stations, settings.station.tool);
-  const bool correct = out.axial && out.axial->has_value();
+  if (settings.align_within_rad) {
+    AlignmentSettings alignment;
+    alignment.tool = settings.station.tool;
+    alignment.stated_rad = *settings.align_within_rad;
+    out.alignment = align_magnetometers(stations, alignment);
+  } else if (settings.correct_axial) {
+    out.axial = estimate_axial_interference(stations, settings.station.tool);
+  }
   std::vector<PathStation> path;
   for (std::size_t k = 0; k < stations.size(); ++k) {
     const ReferencedStation& at = stations[k];
-    out.stations.push_back(correct
-                               ? judge_corrected(corrected(at.measured, **out.axial), at.reference, settings.station)
-                               : judge_station(at.measured, at.reference, settings.station));
+    out.stations.push_back(judged(at, out, settings.station));
     if (const std::optional<PathStation> on = path_station(out.stations.back(), out.north)) {
       path.push_back(*on);
       out.on_path.push_back(k);
