@@ -30,6 +30,11 @@ tl::unexpected<AlignmentRefusal> refused(NoAlignment why, double value = 0.0, do
   return tl::unexpected<AlignmentRefusal>(because(why, value, limit));
 }
 
+/// Of a chi-square as large.
+double chance_of(double chi_square, int freedom) {
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), chi_square));
+}
+
 /// Inverse of the covariance of a station's three residuals; nothing where it states no random error.
 std::optional<Eigen::Matrix3d> weight_of(const Eigen::Matrix3d& c) {
   const Eigen::Vector3d scale = c.diagonal().cwiseSqrt();
@@ -192,12 +197,10 @@ void fill(const Solution& found, const Problem& problem, const Information& cova
 
 /// Residuals, and the rotation against what is stated of it.
 tl::expected<void, AlignmentRefusal> believable(const JointAlignment& found, const AlignmentSettings& settings) {
-  const auto limit = [&](int freedom) {
-    return boost::math::quantile(
-        boost::math::complement(boost::math::chi_squared(freedom), settings.misfit_false_alarm));
-  };
   if (found.chance < settings.misfit_false_alarm)
-    return refused(NoAlignment::misfit, found.chi_square, limit(found.freedom));
+    return refused(NoAlignment::misfit, found.chi_square,
+                   boost::math::quantile(
+                       boost::math::complement(boost::math::chi_squared(found.freedom), settings.misfit_false_alarm)));
   Eigen::Matrix3d c;
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b)
@@ -205,7 +208,7 @@ tl::expected<void, AlignmentRefusal> believable(const JointAlignment& found, con
   }
   c.diagonal().array() += settings.stated_rad * settings.stated_rad;
   const Eigen::Map<const Eigen::Vector3d> turn(found.turn_rad.data());
-  if (turn.dot(c.ldlt().solve(turn)) > limit(3))
+  if (chance_of(turn.dot(c.ldlt().solve(turn)), 3) < settings.misfit_false_alarm)
     return refused(NoAlignment::implausible, turn.norm(), settings.stated_rad);
   return {};
 }
@@ -229,7 +232,7 @@ tl::expected<JointAlignment, AlignmentRefusal> align_magnetometers(const std::ve
   const Information covariance = problem->covariance(found->normal.information);
   fill(*found, *problem, covariance, out);
   out.freedom = 3 * static_cast<int>(stations.size()) - (settings.dip_known ? 3 : 4);
-  out.chance = boost::math::cdf(boost::math::complement(boost::math::chi_squared(out.freedom), out.chi_square));
+  out.chance = chance_of(out.chi_square, out.freedom);
   out.held_out = held_out_of(*found, *problem, covariance, stations);
   if (const auto good = believable(out, settings); !good) return tl::unexpected<AlignmentRefusal>(good.error());
   return out;
