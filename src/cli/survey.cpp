@@ -28,12 +28,13 @@ struct SurveyOptions {
   double risk = 1e-4;
   bool axial = false;
   bool align = false;
-  std::string alignment_sigma = "0.5 deg";
+  std::string alignment_sigma;  // empty: kUsualAlignment
   std::string csv;
   bool json = false;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
 
+constexpr const char* kUsualAlignment = "0.5 deg";
 constexpr double kMostStated_rad = rad_from_deg(30.0);  // beyond, Gauss and Newton may end elsewhere
 
 constexpr const char* kSurveyAbout =
@@ -58,8 +59,8 @@ io::FileExpected<double> alignment_within(const SurveyOptions& options) {
   if (options.axial)
     return refused("--align-magnetometers", "it cannot be asked for together with --axial: both explain the same dips",
                    "leave one out; the alignment takes axial interference of 220 nT (1 sigma) into account");
-  const io::FileExpected<double> sigma =
-      quantity_option(io::Quantity::angle, "--alignment-sigma", options.alignment_sigma);
+  const std::string stated = options.alignment_sigma.empty() ? kUsualAlignment : options.alignment_sigma;
+  const io::FileExpected<double> sigma = quantity_option(io::Quantity::angle, "--alignment-sigma", stated);
   if (sigma && !(*sigma > 0.0 && *sigma <= kMostStated_rad))
     return refused("--alignment-sigma", "it must be above 0 and at most 30 deg", "state it as in \"0.5 deg\"");
   return sigma;
@@ -76,6 +77,9 @@ io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& op
     const io::FileExpected<double> within = alignment_within(options);
     if (!within) return tl::unexpected<io::FileError>(within.error());
     out.align_within_rad = *within;
+  } else if (!options.alignment_sigma.empty()) {
+    return tl::unexpected<io::FileError>(io::FileError{"--alignment-sigma", 0, "", "no alignment is asked for",
+                                                       "add --align-magnetometers", io::ExitCode::usage});
   }
   if (!options.convergence.empty()) {
     const io::FileExpected<double> angle = quantity_option(io::Quantity::angle, "--convergence", options.convergence);
@@ -209,7 +213,7 @@ Command add_survey(const Options& tool) {
   command.add_flag("--axial", options->axial,
                    "estimate the axial interference of the drill string from all stations, and take it off");
   command.add_flag("--align-magnetometers", options->align,
-                   "estimate from the dips how the magnetometers are turned against the accelerometers, and turn back");
+                   "turn the field into the frame of the accelerometers, by a rotation estimated from the dips");
   command
       .add_option("--alignment-sigma", options->alignment_sigma,
                   "how far they may be turned, 1 sigma; an estimate has to be better (default \"0.5 deg\")")

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "plumb/io/printable.hpp"
@@ -102,7 +103,8 @@ std::string alignment_text(const survey::Survey& s) {
   if (!*s.alignment) return "Alignment of the magnetometers: not estimated: " + s.alignment->error().text() + ".\n";
   const survey::JointAlignment& a = **s.alignment;
   const auto three = [](const Vec3& rad) {
-    return fmt::format("{:.3f}, {:.3f}, {:.3f}", deg_from_rad(rad[0]), deg_from_rad(rad[1]), deg_from_rad(rad[2]));
+    const auto one = [](double x) { return 0.0 + std::round(1000.0 * deg_from_rad(x)) / 1000.0; };  // no -0.000
+    return fmt::format("{:.3f}, {:.3f}, {:.3f}", one(rad[0]), one(rad[1]), one(rad[2]));
   };
   const survey::AlignmentAxis& weakest = a.axis[0];
   std::string out = fmt::format(
