@@ -250,6 +250,8 @@ CorrectedStation aligned(const Measurement& station, const JointAlignment& align
   CorrectedStation out;
   out.measured = turned.at;
   std::copy_n(random.data(), 36, out.measured.random.begin());
+  const Eigen::Map<const Eigen::Vector3d> bound(station.bias_bound.data() + 3);
+  Eigen::Map<Eigen::Vector3d>(out.measured.bias_bound.data() + 3) = rotation.cwiseAbs() * bound;
   std::copy_n(total.data(), 36, out.total.begin());
   return out;
 }

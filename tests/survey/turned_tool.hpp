@@ -13,6 +13,10 @@ namespace turned_tool {
 using plumb::Mat3;
 using plumb::Vec3;
 
+inline Vec3 degrees(double x, double y, double z) {
+  return {plumb::rad_from_deg(x), plumb::rad_from_deg(y), plumb::rad_from_deg(z)};
+}
+
 /// exp of a rotation vector.
 inline Mat3 rotation_of(const Vec3& turn_rad) {
   const double angle = plumb::norm(turn_rad);
