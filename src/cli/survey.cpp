@@ -30,10 +30,15 @@ struct SurveyOptions {
   double false_alarm = 0.0027;
   double risk = 1e-4;
   bool axial = false;
+  bool align = false;
+  std::string alignment_sigma;  // empty: kUsualAlignment
   std::string csv, page;
   bool json = false;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
+
+constexpr const char* kUsualAlignment = "0.5 deg";
+constexpr double kMostStated_rad = rad_from_deg(30.0);  // beyond, Gauss and Newton may end elsewhere
 
 constexpr const char* kSurveyAbout =
     "Inclination, toolface and azimuth of survey stations from accelerometers and magnetometers, each with its\n"
@@ -50,6 +55,20 @@ constexpr const char* kSurveyNotes =
     "and\n"
     "limits, and what is refused.\n\n";
 
+io::FileExpected<double> alignment_within(const SurveyOptions& options) {
+  const auto refused = [](const char* option, const char* what, const char* remedy) {
+    return tl::unexpected<io::FileError>(io::FileError{option, 0, "", what, remedy, io::ExitCode::usage});
+  };
+  if (options.axial)
+    return refused("--align-magnetometers", "it cannot be asked for together with --axial: both explain the same dips",
+                   "leave one out; the alignment takes axial interference of 220 nT (1 sigma) into account");
+  const std::string stated = options.alignment_sigma.empty() ? kUsualAlignment : options.alignment_sigma;
+  const io::FileExpected<double> sigma = quantity_option(io::Quantity::angle, "--alignment-sigma", stated);
+  if (sigma && !(*sigma > 0.0 && *sigma <= kMostStated_rad))
+    return refused("--alignment-sigma", "it must be above 0 and at most 30 deg", "state it as in \"0.5 deg\"");
+  return sigma;
+}
+
 io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& options) {
   survey::SurveySettings out;
   out.station.checks.limits = options.limits;
@@ -57,6 +76,14 @@ io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& op
   out.integrity_risk = options.risk;
   out.north = options.north;
   out.correct_axial = options.axial;
+  if (options.align) {
+    const io::FileExpected<double> within = alignment_within(options);
+    if (!within) return tl::unexpected<io::FileError>(within.error());
+    out.align_within_rad = *within;
+  } else if (!options.alignment_sigma.empty()) {
+    return tl::unexpected<io::FileError>(io::FileError{"--alignment-sigma", 0, "", "no alignment is asked for",
+                                                       "add --align-magnetometers", io::ExitCode::usage});
+  }
   if (!options.convergence.empty()) {
     const io::FileExpected<double> angle = quantity_option(io::Quantity::angle, "--convergence", options.convergence);
     if (!angle) return tl::unexpected<io::FileError>(angle.error());
@@ -103,6 +130,7 @@ std::string command_of(const SurveyOptions& o) {
       {"--convergence", o.convergence, usual.convergence},
       {"--noise-gravity", o.noise_gravity, usual.noise_gravity},
       {"--noise-field", o.noise_field, usual.noise_field},
+      {"--alignment-sigma", o.alignment_sigma, usual.alignment_sigma},
       {"--csv", o.csv, usual.csv},
       {"--report", o.page, usual.page}};
   std::string out = "plumb survey " + io::shell_word(o.stations);
@@ -115,6 +143,7 @@ std::string command_of(const SurveyOptions& o) {
   if (o.false_alarm != usual.false_alarm) out += fmt::format(" --false-alarm {}", o.false_alarm);
   if (o.risk != usual.risk) out += fmt::format(" --risk {}", o.risk);
   if (o.axial) out += " --axial";
+  if (o.align) out += " --align-magnetometers";
   if (o.on_bad_row == io::BadRowPolicy::skip) out += " --on-bad-row skip";
   return out;
 }
@@ -125,6 +154,10 @@ io::ExitCode verdict(const SurveyOptions& options, const survey::Survey& found) 
     return report({options.stations, 0, "",
                    "the axial interference could not be estimated: " + found.axial->error().text(),
                    "leave --axial out, or add stations at other attitudes", io::ExitCode::not_accepted});
+  if (found.alignment && !*found.alignment)
+    return report({options.stations, 0, "",
+                   "the alignment of the magnetometers could not be estimated: " + found.alignment->error().text(),
+                   "leave --align-magnetometers out, or add stations at other attitudes", io::ExitCode::not_accepted});
   for (const survey::SurveyStation& s : found.stations) {
     if (s.status != survey::StationStatus::rejected) return io::ExitCode::done;
   }
@@ -228,6 +261,12 @@ Command add_survey(const Options& tool) {
   add_checks(command, *options);
   command.add_flag("--axial", options->axial,
                    "estimate the axial interference of the drill string from all stations, and take it off");
+  command.add_flag("--align-magnetometers", options->align,
+                   "turn the field into the frame of the accelerometers, by a rotation estimated from the dips");
+  command
+      .add_option("--alignment-sigma", options->alignment_sigma,
+                  "how far they may be turned, 1 sigma; an estimate has to be better (default \"0.5 deg\")")
+      .type_name("\"0.5 deg\"");
   command.add_option("--csv", options->csv, "write the survey as a table").type_name("OUT.csv");
   command.add_option("--report", options->page, "write a page with every check, plots (gnuplot) and references")
       .type_name("FILE.html");

@@ -76,21 +76,56 @@ Json saturated_json(const survey::Survey& s) {
   return out;
 }
 
+Json axis_json(const survey::AlignmentAxis& axis) {
+  return object({{"direction", axis.direction},
+                 {"sigma_deg", std::isfinite(axis.sigma_rad) ? Json(deg_from_rad(axis.sigma_rad)) : Json()},
+                 {"told", axis.told},
+                 {"east_seen", axis.seen},
+                 {"with", axis.with},
+                 {"correlation", axis.correlation}});
+}
+
+Json alignment_json(const survey::Survey& s) {
+  if (!s.alignment) return nullptr;
+  Json axes = Json::array();
+  for (const survey::AlignmentAxis& axis : *s.alignment ? (*s.alignment)->axis : s.alignment->error().axis)
+    axes.push_back(axis_json(axis));
+  if (!*s.alignment)
+    return object({{"estimated", false},
+                   {"why", s.alignment->error().text()},
+                   {"rank", s.alignment->error().rank},
+                   {"axes", axes}});
+  const survey::JointAlignment& a = **s.alignment;
+  const auto degrees = [](const Vec3& rad) {
+    return Json{deg_from_rad(rad[0]), deg_from_rad(rad[1]), deg_from_rad(rad[2])};
+  };
+  return object({{"estimated", true},
+                 {"turn_deg", degrees(a.turn_rad)},
+                 {"sigma_deg", degrees(a.sigma_rad)},
+                 {"rank", 3},
+                 {"axes", axes},
+                 {"held_out_dip_deg", deg_from_rad(a.held_out.rms_rad)},
+                 {"held_out_normalised", a.held_out.normalised},
+                 {"chi_square", a.chi_square},
+                 {"freedom", a.freedom}});
+}
+
 Json path_json(const survey::Survey& s) {
   Json out = Json::array();
   if (!s.path) return out;
   for (std::size_t k = 0; k < s.path->size(); ++k) {
     const survey::PathPoint& p = (*s.path)[k];
-    const survey::PositionCovariance& c = s.position_covariance[k];
+    const bool known = k < s.position_covariance.size();
+    const auto sigma = [&](std::size_t at) { return known ? Json(std::sqrt(s.position_covariance[k][at])) : Json(); };
     out.push_back(object({{"md_m", p.md_m},
                           {"north_m", p.north_m},
                           {"east_m", p.east_m},
                           {"tvd_m", p.tvd_m},
                           {"dogleg_deg_per_30m", p.dogleg_deg_per_30m},
-                          {"sigma_north_m", std::sqrt(c[0])},
-                          {"sigma_east_m", std::sqrt(c[4])},
-                          {"sigma_tvd_m", std::sqrt(c[8])},
-                          {"covariance_m2", c}}));
+                          {"sigma_north_m", sigma(0)},
+                          {"sigma_east_m", sigma(4)},
+                          {"sigma_tvd_m", sigma(8)},
+                          {"covariance_m2", known ? Json(s.position_covariance[k]) : Json()}}));
   }
   return out;
 }
@@ -119,6 +154,7 @@ nlohmann::ordered_json survey_json(const SurveyReport& r) {
                  {"stations", std::move(stations)},
                  {"error_tests", std::move(tests)},
                  {"axial_interference", axial_json(r.survey)},
+                 {"magnetometer_alignment", alignment_json(r.survey)},
                  {"path", path_json(r.survey)}});
 }
 

@@ -232,7 +232,9 @@ Section path_section(const SurveyReport& r, const PagePictures& pictures) {
   for (std::size_t k = 0; k < r.survey.path->size(); ++k) {
     const survey::PathPoint& p = (*r.survey.path)[k];
     const auto sigma = [&](std::size_t at) {
-      return fmt::format("{:.2f}", std::sqrt(r.survey.position_covariance[k][at]));
+      return k < r.survey.position_covariance.size()
+                 ? fmt::format("{:.2f}", std::sqrt(r.survey.position_covariance[k][at]))
+                 : std::string("-");
     };
     rows.push_back({fmt::format("{:.2f}", p.md_m), fmt::format("{:.2f}", p.tvd_m), fmt::format("{:.2f}", p.north_m),
                     fmt::format("{:.2f}", p.east_m), fmt::format("{:.2f}", p.dogleg_deg_per_30m), sigma(0), sigma(4),
@@ -274,6 +276,10 @@ Section tests_section(const Survey& found) {
     }
   } else {
     out.notice("The error tests were not made: " + found.tests_refused + ".", "open");
+  }
+  if (found.alignment) {
+    out.heading("Alignment of the magnetometers");
+    out.notice(alignment_words(found), *found.alignment ? "good" : "bad");
   }
   out.heading("Axial interference");
   if (found.axial)

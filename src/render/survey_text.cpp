@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "plumb/io/printable.hpp"
@@ -88,6 +89,7 @@ std::string survey_text(const SurveyReport& r) {
     out += "Error tests: none: " + r.survey.tests_refused + "\n";
   }
   if (r.survey.axial) out += axial_words(r.survey) + "\n";
+  if (r.survey.alignment) out += alignment_words(r.survey) + "\n";
   return out + path_words(r.survey) + "\n";
 }
 

@@ -72,15 +72,37 @@ std::string axial_words(const survey::Survey& found) {
       e.value[z] * 1e9, e.sigma[z] * 1e9, e.largest_reference_correlation);
 }
 
+std::string alignment_words(const survey::Survey& s) {
+  if (!s.alignment) return "";
+  if (!*s.alignment) return "Alignment of the magnetometers: not estimated: " + s.alignment->error().text() + ".";
+  const survey::JointAlignment& a = **s.alignment;
+  const auto three = [](const Vec3& rad) {
+    const auto one = [](double x) { return 0.0 + std::round(1000.0 * deg_from_rad(x)) / 1000.0; };  // no -0.000
+    return fmt::format("{:.3f}, {:.3f}, {:.3f}", one(rad[0]), one(rad[1]), one(rad[2]));
+  };
+  const survey::AlignmentAxis& weakest = a.axis[0];
+  std::string out = fmt::format(
+      "Alignment of the magnetometers: turned by {} deg about tool x, y, z (1 sigma {} deg), and the field of every "
+      "station turned with them. Weakest about {}: {:.3f} deg",
+      three(a.turn_rad), three(a.sigma_rad), weakest.name(), deg_from_rad(weakest.sigma_rad));
+  if (!weakest.with.empty())
+    out += fmt::format(", which holds its correlation of {:.2f} with {}", weakest.correlation, weakest.with);
+  return out + fmt::format(". Dips held out: {:.3f} deg rms, {:.2f} times their sigma.",
+                           deg_from_rad(a.held_out.rms_rad), a.held_out.normalised);
+}
+
 std::string path_words(const survey::Survey& found) {
   if (!found.path) return "Path: none: " + found.path.error().text();
   const survey::PathPoint& end = found.path->back();
-  const survey::PositionCovariance& c = found.position_covariance.back();
-  return fmt::format(
+  const std::string out = fmt::format(
       "Path of {} stations, minimum curvature from {} north: at {:.2f} m north {:.2f} m, east {:.2f} m, true vertical "
-      "depth {:.2f} m; 1 sigma {:.2f} m, {:.2f} m, {:.2f} m from the first",
-      found.path->size(), to_string(found.north), end.md_m, end.north_m, end.east_m, end.tvd_m, std::sqrt(c[0]),
-      std::sqrt(c[4]), std::sqrt(c[8]));
+      "depth {:.2f} m",
+      found.path->size(), to_string(found.north), end.md_m, end.north_m, end.east_m, end.tvd_m);
+  if (found.position_covariance.empty())
+    return out + "; no sigma: the errors of an alignment are not carried along the path";
+  const survey::PositionCovariance& c = found.position_covariance.back();
+  return out + fmt::format("; 1 sigma {:.2f} m, {:.2f} m, {:.2f} m from the first", std::sqrt(c[0]), std::sqrt(c[4]),
+                           std::sqrt(c[8]));
 }
 
 }  // namespace render

@@ -22,6 +22,8 @@ std::string flag_words(const survey::Survey& found);
 /// "passed", or what each part of the test found. `unit` is what figures are divided by, `name` what they are in then.
 std::string error_test_words(const survey::ErrorTest& test, double unit, const char* name, const survey::Survey& found);
 /// What became of the axial interference; empty where nobody asked.
+/// Empty where no alignment was asked for.
+std::string alignment_words(const survey::Survey& found);
 std::string axial_words(const survey::Survey& found);
 /// Where the path ends, or why there is none.
 std::string path_words(const survey::Survey& found);

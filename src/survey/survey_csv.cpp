@@ -74,7 +74,7 @@ std::string survey_csv(const Survey& survey) {
   for (std::size_t k = 0; k < survey.stations.size(); ++k) {
     const bool on_path = survey.path && next < survey.on_path.size() && survey.on_path[next] == k;
     append_station(out, survey, survey.stations[k], on_path ? &(*survey.path)[next] : nullptr,
-                   on_path ? &survey.position_covariance[next] : nullptr);
+                   on_path && next < survey.position_covariance.size() ? &survey.position_covariance[next] : nullptr);
     if (on_path) ++next;
   }
   return out;

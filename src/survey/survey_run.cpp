@@ -23,6 +23,15 @@ std::optional<PathStation> path_station(const SurveyStation& station, North nort
                      azimuth ? azimuth->rad : 0.0};
 }
 
+/// By what could be estimated, else as it was read.
+SurveyStation judged(const ReferencedStation& at, const Survey& found, const StationSettings& settings) {
+  if (found.alignment && *found.alignment)
+    return judge_corrected(aligned(at.measured, **found.alignment), at.reference, settings);
+  if (found.axial && *found.axial)
+    return judge_corrected(corrected(at.measured, **found.axial), at.reference, settings);
+  return judge_station(at.measured, at.reference, settings);
+}
+
 }  // namespace
 
 OrUndefined<Angle> azimuth_from(const SurveyStation& station, North north) {
@@ -58,6 +67,7 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
              {},
              {},
              {},
+             {},
              {}};
   ErrorTestSettings tests;
   tests.tool = settings.station.tool;
@@ -66,17 +76,21 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
     out.tests = *std::move(found);
   else
     out.tests_refused = found.error().text();
-  if (settings.correct_axial) out.axial = estimate_axial_interference(stations, settings.station.tool);
-  const bool correct = out.axial && out.axial->has_value();
+  if (settings.align_within_rad) {
+    AlignmentSettings alignment;
+    alignment.tool = settings.station.tool;
+    alignment.stated_rad = *settings.align_within_rad;
+    out.alignment = align_magnetometers(stations, alignment);
+  } else if (settings.correct_axial) {
+    out.axial = estimate_axial_interference(stations, settings.station.tool);
+  }
   std::vector<PathStation> path;
   std::vector<PathStationErrors> errors;
   std::vector<Measurement> measured;
   for (std::size_t k = 0; k < stations.size(); ++k) {
     const ReferencedStation& at = stations[k];
     measured.push_back(at.measured);
-    out.stations.push_back(correct
-                               ? judge_corrected(corrected(at.measured, **out.axial), at.reference, settings.station)
-                               : judge_station(at.measured, at.reference, settings.station));
+    out.stations.push_back(judged(at, out, settings.station));
     if (const std::optional<PathStation> on = path_station(out.stations.back(), out.north)) {
       path.push_back(*on);
       errors.push_back(path_errors(out.stations.back(), out.north));
@@ -89,10 +103,13 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
     out.on_path.clear();
     return out;
   }
+  // The errors of an alignment turn with the tool, and are not terms of the path: no figure is better than half of one.
+  if (out.alignment && *out.alignment) return out;
   const double declination =
       out.north == North::magnetic ? 0.0 : stations.front().reference.field.declination_rad_sigma.common;
   out.position_covariance = position_covariances(
-      errors, correct ? (*out.axial)->covariance : stated_covariance(settings.station.tool), declination);
+      errors, out.axial && *out.axial ? (*out.axial)->covariance : stated_covariance(settings.station.tool),
+      declination);
   return out;
 }
 

@@ -27,6 +27,7 @@ constexpr double kDip_deg = 73.0;
 /// A hole from vertical to 80 degrees on 120 degrees magnetic, the tool turned at every station.
 struct Hole {
   double interference_nt = 0.0;
+  double turned_deg = 0.0;  ///< magnetometers about z
   bool exchanged = false;
   double unit_nt = 1.0;
   double full_scale_nt = 1e9;
@@ -41,6 +42,9 @@ struct Hole {
       double b[3] = {high * std::sin(t) + right * std::cos(t), high * std::cos(t) - right * std::sin(t),
                      bn * std::sin(i) * std::cos(a) + bd * std::cos(i) + interference_nt};
       for (double& component : b) component = std::fmax(-full_scale_nt, std::fmin(component, full_scale_nt));
+      const double c = std::cos(turned_deg * kRad), s = std::sin(turned_deg * kRad), bx = b[0], by = b[1];
+      b[0] = c * bx + s * by;
+      b[1] = c * by - s * bx;
       if (exchanged) std::swap(b[0], b[1]);
       char line[200];
       std::snprintf(line, sizeof line, "%.1f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f\n", 1500.0 + 30.0 * k,
@@ -135,6 +139,67 @@ TEST(SurveyCommand, EstimatesInterferenceOrSaysWhyNot) {
   EXPECT_TRUE(says(refused.out, {"Axial interference: not estimated",
                                  "do not tell magnetometer bias z from an error of the reference"}));
   EXPECT_TRUE(says(refused.err, {"could not be estimated"}));
+}
+
+TEST(SurveyCommand, AlignsTheMagnetometersOrSaysWhyNot) {
+  const Desk where;
+  Hole hole;
+  hole.turned_deg = 0.7;
+  where.put("run.csv", hole.csv());
+  const nlohmann::json before = survey_json_of(run(where, stated({"--json"})));
+  const Outcome outcome = run(where, stated({"--align-magnetometers", "--json"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json after = survey_json_of(outcome);
+  EXPECT_TRUE(before["magnetometer_alignment"].is_null());
+  const nlohmann::json alignment = after["magnetometer_alignment"];
+  EXPECT_EQ(alignment["estimated"], true);
+  EXPECT_NEAR(alignment["turn_deg"][0].get<double>(), 0.0, 0.01);
+  EXPECT_NEAR(alignment["turn_deg"][2].get<double>(), 0.7, 0.02);
+  EXPECT_LT(alignment["sigma_deg"][2].get<double>(), 0.1);
+  EXPECT_EQ(alignment["axes"].size(), 3U);
+  EXPECT_LT(alignment["axes"][0]["sigma_deg"].get<double>(), 0.1);
+  const auto off = [](const nlohmann::json& found) {
+    return std::fabs(found["stations"][10]["azimuth_magnetic"]["deg"].get<double>() - 120.0);
+  };
+  EXPECT_GT(off(before), 0.3);
+  EXPECT_LT(off(after), 0.05);
+  EXPECT_TRUE(says(run(where, stated({"--align-magnetometers"})).out,
+                   {"Alignment of the magnetometers: turned by ", "deg about tool x, y, z (1 sigma", "Weakest about ",
+                    "Dips held out"}));
+  // Rolled upright: nothing shows the rotation about the axis of the tool. The survey is printed as it was read.
+  const std::string whole = hole.csv();
+  const std::size_t first = whole.find('\n') + 1;
+  std::string upright = hole.header;
+  for (int k = 0; k < 12; ++k) {
+    const std::string line = whole.substr(first, whole.find('\n', first) + 1 - first);
+    upright += std::to_string(1500 + 30 * k) + line.substr(line.find(','));
+  }
+  where.put("run.csv", upright);
+  const Outcome refused = run(where, stated({"--align-magnetometers"}));
+  EXPECT_EQ(refused.code, 4);
+  EXPECT_TRUE(says(refused.out, {"accepted (V)", "Alignment of the magnetometers: not estimated",
+                                 "these stations do not show", "towards magnetic east"}));
+  EXPECT_TRUE(says(refused.err, {"the alignment of the magnetometers could not be estimated"}));
+  const nlohmann::json why = survey_json_of(run(where, stated({"--align-magnetometers", "--json"})));
+  EXPECT_EQ(why["magnetometer_alignment"]["estimated"], false);
+  EXPECT_LT(why["magnetometer_alignment"]["rank"].get<int>(), 3);
+}
+
+TEST(SurveyCommand, RefusesAnAlignmentThatIsNotStatedWell) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const std::pair<std::vector<std::string>, std::vector<std::string>> cases[] = {
+      {{"--align-magnetometers", "--axial"}, {"--align-magnetometers", "together with --axial", "leave one out"}},
+      {{"--align-magnetometers", "--alignment-sigma", "0 deg"}, {"--alignment-sigma", "at most 30 deg"}},
+      {{"--align-magnetometers", "--alignment-sigma", "31 deg"}, {"--alignment-sigma", "at most 30 deg"}},
+      {{"--align-magnetometers", "--alignment-sigma", "1"}, {"--alignment-sigma"}},
+      {{"--alignment-sigma", "1 deg"}, {"--alignment-sigma", "--align-magnetometers"}},
+  };
+  for (const auto& [more, words] : cases) {
+    const Outcome outcome = run(where, stated(more));
+    EXPECT_EQ(outcome.code, 2) << more.back();
+    EXPECT_TRUE(says(outcome.err, words));
+  }
 }
 
 TEST(SurveyCommand, RefusesUnitsAndAxesThatCannotBe) {

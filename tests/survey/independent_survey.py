@@ -1,5 +1,5 @@
 """The survey once more, by other means: attitudes from a triad of directions, derivatives by complex steps, all unknowns of the
-multi-station estimate in one dense system without scaling, covariances of error tests by a dense inverse, the path by vectors.
+multi-station estimate and of the alignment in one dense system without scaling, the rotation by Cayley's map, covariances of error tests by a dense inverse, the path by vectors.
 Prints readings and results, one record a line; tests/survey/independent_test.cpp compares. Standard library only."""
 import cmath
 import math
@@ -182,6 +182,59 @@ def estimate(stations):
     return x, covariance, chi
 
 
+def turned(v, w):
+    """v turned by 2 atan(|w| / 2) about w (Cayley): to first order, all that a complex step sees, by w."""
+    half = tuple(c / 2.0 for c in w)
+    inner = tuple(a + b for a, b in zip(v, cross(half, v)))
+    scale = 2.0 / (1.0 + dot(half, half))
+    return tuple(a + scale * c for a, c in zip(v, cross(half, inner)))
+
+
+def alignment(stations, dip_known):
+    """Rotation (three turns one after another), terms, references; covariance of a further small turn and the rest."""
+    prior = [0.0] * 3 + [1.0 / s ** 2 for s in TOOL + list(SIGMA_REF)]
+    if not dip_known:
+        prior[17] = 0.0
+    weights = [inverse(random_of(v)) for v in stations]
+    turns, x = [], [0.0] * 15
+
+    def totals_at(v, bent, w):
+        c = corrected([complex(r) for r in v], bent)
+        field = c[3:]
+        for t in turns:
+            field = turned(field, t)
+        return totals(c[:3] + turned(field, w))
+
+    for _ in range(12):
+        normal = [[prior[i] if i == j else 0.0 for j in range(18)] for i in range(18)]
+        right = [-p * c for p, c in zip(prior, [0.0] * 3 + x)]
+        chi = sum(p * c * c for p, c in zip(prior[3:], x))
+        for v, weight in zip(stations, weights):
+            columns = []
+            for k in range(15):
+                at = totals_at(v, [complex(c, STEP if k == 3 + i else 0.0) for i, c in enumerate(x)],
+                               [complex(0.0, STEP if k == i else 0.0) for i in range(3)])
+                columns.append([at[0].imag / STEP, at[1].imag / STEP, angle_slope(at[2])])
+            columns += [[-float(i == k) for i in range(3)] for k in range(3)]
+            g, b, pair = totals_at(v, x, (0.0, 0.0, 0.0))
+            r = [g.real - G0 - x[12], b.real - B0 - x[13], angle(pair) - DIP - x[14]]
+            wr = times(weight, r)
+            wa = [times(weight, c) for c in columns]
+            chi += dot(r, wr)
+            for i in range(18):
+                right[i] -= dot(columns[i], wr)
+                for j in range(18):
+                    normal[i][j] += dot(columns[i], wa[j])
+        covariance = inverse(normal)
+        step = times(covariance, right)
+        turns.append(step[:3])
+        x = [a + b for a, b in zip(x, step[3:])]
+    rotation = [[float(i == k) for i in range(3)] for k in range(3)]
+    for t in turns:
+        rotation = [turned(column, t) for column in rotation]
+    return rotation, x, covariance, chi
+
+
 def error_test(stations, kind):
     n = len(stations)
     shared, r = [], []
@@ -238,6 +291,15 @@ def main():
     show("estimate", *x)
     show("covariance", *(covariance[i][j] for i in range(12) for j in range(12)))
     show("chi", chi)
+    apart = [v[:3] + list(turned(v[3:], (0.012, -0.007, 0.009))) for v in stations]
+    for v in apart:
+        show("apart", *v)
+    for dip_known in (True, False):
+        rotation, x, covariance, chi = alignment(apart, dip_known)
+        show("rotation", *(rotation[k][i] for i in range(3) for k in range(3)))
+        show("aligned", *x, chi)
+        show("alignment", *(covariance[i][j] for i in range(15) for j in range(15)))
+        show("dip", covariance[17][17])
     for kind in range(3):
         show("test", *error_test(stations, kind))
     for point in path(stations):

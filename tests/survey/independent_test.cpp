@@ -11,6 +11,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/survey/error_tests.hpp"
+#include "plumb/survey/joint_alignment.hpp"
 #include "plumb/survey/multi_station.hpp"
 #include "plumb/survey/path.hpp"
 
@@ -130,6 +131,33 @@ TEST_F(IndependentSurvey, AgreesOnTheEstimate) {
   expect_alike(found->field_offset_tesla, x[13], 130e-9);
   expect_alike(found->dip_offset_rad, x[14], rad_from_deg(0.2));
   expect_alike(found->chi_square, of("chi")[0][0], of("chi")[0][0]);
+}
+
+TEST_F(IndependentSurvey, AgreesOnTheAlignment) {
+  std::vector<ReferencedStation> apart;
+  for (std::size_t k = 0; k < stations_.size(); ++k) apart.push_back(station_of(of("apart")[k], k));
+  AlignmentSettings settings;
+  settings.misfit_false_alarm = 0.0;
+  settings.stated_rad = rad_from_deg(2.0);
+  for (const std::size_t unknown_dip : {0U, 1U}) {
+    settings.dip_known = unknown_dip == 0;
+    const auto found = align_magnetometers(apart, settings);
+    ASSERT_TRUE(found.has_value()) << found.error().text();
+    const std::vector<double>& x = of("aligned")[unknown_dip];
+    const std::vector<double>& c = of("alignment")[unknown_dip];
+    const auto sigma = [&](std::size_t i) { return std::sqrt(c[(kAlignmentUnknowns + 1) * i]); };
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(found->rotation[i], of("rotation")[unknown_dip][i], kAgree * 1e-3);
+    for (std::size_t i = 0; i < kTermCount; ++i) expect_alike(found->value[i], x[i], sigma(3 + i));
+    for (std::size_t i = 0; i < kAlignmentUnknowns; ++i) {
+      for (std::size_t j = 0; j < kAlignmentUnknowns; ++j)
+        expect_alike(found->covariance[kAlignmentUnknowns * i + j], c[kAlignmentUnknowns * i + j], sigma(i) * sigma(j));
+    }
+    expect_alike(found->gravity_offset_mps2, x[12], 1.5e-3);
+    expect_alike(found->field_offset_tesla, x[13], 130e-9);
+    expect_alike(found->dip_offset_rad, x[14], rad_from_deg(0.2));
+    expect_alike(found->dip_sigma_rad, std::sqrt(of("dip")[unknown_dip][0]), found->dip_sigma_rad);
+    expect_alike(found->chi_square, x[15], x[15]);
+  }
 }
 
 TEST_F(IndependentSurvey, AgreesOnTheErrorTests) {

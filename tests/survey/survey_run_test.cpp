@@ -93,6 +93,39 @@ TEST(Survey, TakesInterferenceOffWhereAskedTo) {
             0.2 * std::fabs(before.stations.back().true_azimuth->angle.rad - truth));
 }
 
+TEST(Survey, AlignsMagnetometersWhereAskedTo) {
+  std::vector<ReferencedStation> stations = hole();
+  const double turn = rad_from_deg(0.6), c = std::cos(turn), s = std::sin(turn);
+  for (ReferencedStation& one : stations) {
+    Vec3& b = one.measured.field_tesla;
+    b = {c * b[0] + s * b[1], c * b[1] - s * b[0], b[2]};
+  }
+  SurveySettings settings;
+  const Survey before = run_survey(stations, settings);
+  EXPECT_FALSE(before.alignment.has_value());
+  settings.align_within_rad = rad_from_deg(0.5);
+  settings.correct_axial = true;
+  const Survey after = run_survey(stations, settings);
+  EXPECT_FALSE(after.axial.has_value());
+  ASSERT_TRUE(after.alignment && after.alignment->has_value()) << after.alignment->error().text();
+  EXPECT_NEAR((*after.alignment)->turn_rad[2], turn, 1e-4);
+  const auto off = [](const Survey& found) {
+    return std::fabs(found.stations[12].true_azimuth->angle.rad - rad_from_deg(56.0));
+  };
+  EXPECT_GT(off(before), rad_from_deg(0.3));
+  EXPECT_LT(off(after), rad_from_deg(0.01));
+  EXPECT_GT(after.stations[12].true_azimuth->angle.sigma_rad, rad_from_deg(0.4));  // the declination's at least
+  // Upright only: refused, and judged as it was read.
+  stations.resize(3);
+  const Survey few = run_survey(stations, settings);
+  ASSERT_TRUE(few.alignment && !few.alignment->has_value());
+  EXPECT_EQ(few.alignment->error().why, NoAlignment::too_few_stations);
+  EXPECT_EQ(few.stations.size(), 3U);
+  EXPECT_EQ(
+      few.stations[0].attitude.inclination->sigma_rad,
+      judge_station(stations[0].measured, stations[0].reference, settings.station).attitude.inclination->sigma_rad);
+}
+
 TEST(Survey, OfNothingHasNoPath) {
   const Survey s = run_survey({}, {});
   EXPECT_FALSE(s.path.has_value());
@@ -325,6 +358,7 @@ RC_GTEST_PROP(StationFileLaw, AnyNumbersAreASurveyOrAnError, ()) {
   }
   SurveySettings settings;
   settings.correct_axial = *rc::gen::arbitrary<bool>();
+  if (*rc::gen::arbitrary<bool>()) settings.align_within_rad = rad_from_deg(0.5);
   const Survey s = run_survey(stations, settings);
   RC_ASSERT(s.stations.size() == stations.size());
   for (const SurveyStation& one : s.stations) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plumb/survey/error_tests.hpp"
+#include "plumb/survey/joint_alignment.hpp"
 #include "plumb/survey/multi_station.hpp"
 #include "plumb/survey/path.hpp"
 #include "plumb/survey/position_covariance.hpp"
@@ -20,6 +21,10 @@ struct SurveySettings {
   double integrity_risk = 1e-4;  ///< of the protection levels
   std::optional<North> north;    ///< of the path; none: grid where there is a convergence, else true, else magnetic
   bool correct_axial = false;    ///< estimate the axial interference, and take it off where it could be estimated
+  /// 1 sigma that is stated of the magnetometers' alignment: estimate it from the dip, and turn the field by it where
+  /// it could be estimated. Axial interference is then an unknown of it, of the tool's stated size: `correct_axial`
+  /// does nothing beside it. None: leave the magnetometers as they are.
+  std::optional<double> align_within_rad;
 };
 
 struct Survey {
@@ -30,10 +35,11 @@ struct Survey {
   std::optional<ErrorTests> tests;  ///< none where they could not be made: `tests_refused`
   std::string tests_refused;
   std::optional<tl::expected<Estimate, EstimateRefusal>> axial;  ///< where asked for; `tests` are those of the readings
+  std::optional<tl::expected<JointAlignment, AlignmentRefusal>> alignment;  ///< the same
   /// Positions of the stations that were accepted; the others are left out.
   io::FileExpected<std::vector<PathPoint>> path;
   std::vector<std::size_t> on_path;                     ///< number of the station of each position
-  std::vector<PositionCovariance> position_covariance;  ///< of each position
+  std::vector<PositionCovariance> position_covariance;  ///< of each position; none with an alignment
   std::vector<SaturatedChannel> saturated;
 };
 
