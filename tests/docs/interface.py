@@ -170,7 +170,8 @@ def python_names(root):
                                  r'\.def\w*\(\s*"(\w+)"|^  (\w*)COLUMN\([^,]+, (\w+),', source, re.M):
             attribute, function, kind, member, row, column = found.groups()
             inside = kind or inside
-            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force", "INCLINATION_": "inclination"}[row]
+            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force", "INCLINATION_": "inclination",
+                      "RATE_": "rate", "RATES_": "rates"}[row]
             yield attribute or function or kind or (column and f"{of_row}.{column}") or f"{inside}.{member}"
 
 
