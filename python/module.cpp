@@ -78,4 +78,5 @@ PYBIND11_MODULE(plumb, module) {
   bind_motion_verdict(module);
   bind_monitor(module);
   bind_motion(module);
+  bind_rates(module);
 }

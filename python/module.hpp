@@ -124,5 +124,6 @@ void bind_log(py::module_& module);
 void bind_calibration(py::module_& module);
 void bind_monitor(py::module_& module);
 void bind_motion(py::module_& module);
+void bind_rates(py::module_& module);
 
 }  // namespace plumb_python

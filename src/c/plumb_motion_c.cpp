@@ -13,31 +13,13 @@ using namespace plumb::c_api;
 static_assert(kMotionCapacity <= PLUMB_C_MOTION_SENSORS && kGyros == PLUMB_C_GYROS, "the header has room for all");
 static_assert(std::is_trivially_destructible<plumb_motion>::value, "storage may simply be dropped");
 
-Expected<SensorArray> array_of(const plumb_motion_config& config) noexcept {
-  std::array<SensorRow, kCapacity> rows{};
+void take_sensors(const plumb_motion_config& config, MotionSetup& setup) noexcept {
   for (size_t k = 0; k < static_cast<size_t>(config.sensors); ++k) {
     const plumb_motion_sensor& from = config.sensor[k];
-    rows[k].id = {'s', static_cast<char>('0' + k / 10), static_cast<char>('0' + k % 10)};
-    std::copy(from.axis, from.axis + 3, rows[k].axis.begin());
-    rows[k].sigma_mps2 = from.sigma_mps2;
-    rows[k].chip = static_cast<std::uint8_t>(from.chip);  // in range: `take_sensors` has asked
-  }
-  return SensorArray::make(rows.data(), config.sensors);
-}
-
-/// Errors: wrong struct of a sensor, a chip that is no number of one.
-plumb_error take_sensors(const plumb_motion_config& config, MotionSetup& setup) noexcept {
-  for (size_t k = 0; k < static_cast<size_t>(config.sensors); ++k) {
-    const plumb_motion_sensor& from = config.sensor[k];
-    const plumb_error e = check_struct(&from, static_cast<int>(k));
-    if (e.code != PLUMB_OK) return e;
-    if (from.chip < 0 || from.chip > 255)
-      return answer({Errc::out_of_range, static_cast<int>(k), static_cast<double>(from.chip), 255.0});
     std::copy(from.lever_arm_m, from.lever_arm_m + 3, setup.lever_arm_m[k].begin());
     setup.errors[k] = {from.lever_bound_m, from.lag_bound_s,    from.rectification_bound,
                        from.scale_bound,   from.axis_bound_rad, from.bias_bound_mps2};
   }
-  return answer(PLUMB_OK);
 }
 
 void take_settings(const plumb_motion_config& config, MotionSetup& setup) noexcept {
@@ -78,17 +60,11 @@ namespace c_api {
 
 plumb_error prepare(const plumb_motion_config* config, int argument, MotionProblem& out) noexcept {
   plumb_error e = check_struct(config, argument);
+  if (e.code == PLUMB_OK)
+    e = read_array(config->sensor, config->sensors, &plumb_motion_sensor::sigma_mps2, argument, out.array);
   if (e.code != PLUMB_OK) return e;
-  const double sensors = config->sensors;
-  if (config->sensors < 3) return answer({Errc::too_few_sensors, -1, sensors, 3.0});
-  if (config->sensors > kMotionCapacity) return answer({Errc::too_many_sensors, -1, sensors, kMotionCapacity});
-  if (config->sensor == nullptr) return missing(argument);
-  e = take_sensors(*config, out.setup);
-  if (e.code != PLUMB_OK) return e;
+  take_sensors(*config, out.setup);
   take_settings(*config, out.setup);
-  const Expected<SensorArray> array = array_of(*config);
-  if (!array) return answer(array.error());
-  out.array = *array;
   return e;
 }
 
@@ -123,6 +99,7 @@ MotionSample sample_of(const plumb_motion_sample& from) noexcept {
   for (size_t g = 0; g < static_cast<size_t>(kGyros); ++g) {
     std::copy(from.rate_radps[g], from.rate_radps[g] + 3, out.rate_radps[g].begin());
     out.rate_given[g] = (from.rates_given >> g & 1U) != 0;
+    out.interpolation_radps[g] = from.rate_error_radps[g];
   }
   return out;
 }

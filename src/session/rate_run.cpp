@@ -54,6 +54,15 @@ io::Json ids(SensorSet set, const SensorArray& array) {
 
 }  // namespace
 
+RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, const Sample& sample) {
+  RateSample out;
+  out.time_s = sample.time_s;
+  out.delivered = sample.delivered;
+  out.clipped = clipped_of(array, sample) & sample.delivered;
+  out.rate_radps = model.apply(sample.raw, sample.temperature_degc, sample.delivered);
+  return out;
+}
+
 io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest) {
   auto monitor = std::make_unique<RateMonitor>();
   if (const Expected<void> made = monitor->configure(array.array, array.rate); !made) {
@@ -70,11 +79,7 @@ io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& l
   Sample sample;
   io::LogReader::Next next = io::LogReader::Next::row;
   while ((next = reader->next(sample)) == io::LogReader::Next::row) {
-    RateSample one;
-    one.time_s = sample.time_s;
-    one.delivered = sample.delivered;
-    one.clipped = clipped_of(array, sample) & sample.delivered;
-    one.rate_radps = model.apply(sample.raw, sample.temperature_degc, sample.delivered);
+    RateSample one = rate_sample(array, model, sample);
     one.at_rest = rest != nullptr && rest->at_rest(sample.time_s);
     run.samples_at_rest += one.at_rest ? 1 : 0;
     ++run.samples;

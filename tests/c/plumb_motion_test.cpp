@@ -68,6 +68,7 @@ plumb_motion_sample c_form(const MotionSample& s) {
   for (std::size_t g = 0; g < static_cast<std::size_t>(kGyros); ++g) {
     std::memcpy(out.rate_radps[g], s.rate_radps[g].data(), sizeof out.rate_radps[g]);
     out.rates_given |= s.rate_given[g] ? 1U << g : 0U;
+    out.rate_error_radps[g] = s.interpolation_radps[g];
   }
   return out;
 }
@@ -112,6 +113,7 @@ TEST(CMotion, AnswersAsTheMonitorDoesThroughAFaultAndItsExclusion) {
   for (std::uint64_t k = 0; k < 900 && !HasFailure(); ++k) {
     MotionSample s = flight.sample(k);
     if (k >= 300) s.reading_mps2[4] += 3.0;
+    if (k % 2 == 0) s.interpolation_radps = {0.02, 0.01};
     if (k == 700) {
       monitor.set_in_service(array.all().without(1));
       EXPECT_EQ(plumb_motion_set_in_service(c.motion, array.all().without(1).bits).code, PLUMB_OK);

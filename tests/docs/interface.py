@@ -170,7 +170,8 @@ def python_names(root):
                                  r'\.def\w*\(\s*"(\w+)"|^  (\w*)COLUMN\([^,]+, (\w+),', source, re.M):
             attribute, function, kind, member, row, column = found.groups()
             inside = kind or inside
-            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force", "INCLINATION_": "inclination"}[row]
+            of_row = {None: "", "": "verdict", "MOTION_": "motion", "FORCE_": "force", "INCLINATION_": "inclination",
+                      "RATE_": "rate", "RATES_": "rates"}[row]
             yield attribute or function or kind or (column and f"{of_row}.{column}") or f"{inside}.{member}"
 
 
@@ -224,7 +225,7 @@ def names_of(root, tool):
     out["reasons of a station"] = words_of(text("src/verification/tool_health_words.cpp"), "StationReason")
     out["concerns of a calibration"] = words_of(text("src/calibration/acceptance.cpp"), "Concern")
     out["findings"] = re.findall(r'\{FindingCode::\w+, "(\w+)"\}', text("include/plumb/findings/finding.hpp"))
-    out["C"] = list(dict.fromkeys(name for header in ("plumb", "plumb_motion")
+    out["C"] = list(dict.fromkeys(name for header in ("plumb", "plumb_motion", "plumb_rates")
                                   for name in c_names(text(f"include/plumb/c/{header}.h"))))
     out["Python"] = list(dict.fromkeys(python_names(root)))
     return out

@@ -68,6 +68,9 @@ typedef struct plumb_motion_sample {
   double time_s;                               /* increasing [s] */
   double reading_mps2[PLUMB_C_MOTION_SENSORS]; /* specific force along each axis, calibrated [m/s^2] */
   double rate_radps[PLUMB_C_GYROS][3];         /* tool frame [rad/s] */
+  /* What each rate is off by beside the bounds of the gyro, in length, 0 or more; of a median plumb_median_error of
+   * plumb_rates.h. plumb_clocks_push does not read it. [rad/s] */
+  double rate_error_radps[PLUMB_C_GYROS];
 } plumb_motion_sample;
 /* Nothing delivered. Error: null_pointer. */
 plumb_error plumb_motion_sample_defaults(plumb_motion_sample* sample) PLUMB_NOEXCEPT;

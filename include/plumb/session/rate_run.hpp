@@ -38,6 +38,9 @@ struct RateRun {
   io::FileError stop;
 };
 
+/// A row of a log as `RateMonitor` takes it, force and rest not known. `model`: that of the datasheet in `array`.
+RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, const Sample& sample);
+
 /// `rest`: when the tool stands still, by its accelerometers; null: not known. Readings are those of the datasheet in
 /// the array file: bias and scale as stated there. Errors: the log cannot be opened; the monitor refuses the setup.
 io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest);
