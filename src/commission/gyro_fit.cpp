@@ -253,24 +253,32 @@ tl::unexpected<std::string> too_few(const GyroLog& log, const std::vector<GyroNo
       samples, least, static_cast<int>(worst), most, static_cast<int>(log.samples()));
 }
 
-/// The body must have turned about every axis by more than the noise shows, and enough for the rows.
-CommissionExpected<bool> moved(const Sums& sums, const GyroFit& fit, const Layout& layout, double variance,
-                               double row_sigma) {
+/// The body must have turned about every axis by more than the noise of the rate.
+CommissionExpected<bool> moved(const Sums& sums, const Layout& layout, double variance) {
   Eigen::Matrix3d spread = sums.terms.topLeftCorner<3, 3>() / sums.samples;
   const Eigen::Vector3d mean = sums.terms.block<3, 1>(0, kOne) / sums.samples;
   if (!layout.rest) spread -= mean * mean.transpose();
   const Eigen::Matrix3d noise = variance * sums.solve * sums.solve.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread - noise);
   const Eigen::Vector3d weakest = eigen.eigenvectors().col(0);
-  const double rate = std::sqrt(std::max(eigen.eigenvalues()[0], 0.0));
-  double loudest = 0.0;
-  for (const GyroNominal& one : fit.nominal) loudest = std::max(loudest, one.noise_radps);
-  const double sigma = loudest * std::sqrt(variance / sums.samples) / std::max(rate, 1e-300);
-  if (rate * rate > weakest.dot(noise * weakest) && sigma < row_sigma) return true;
+  const double square = eigen.eigenvalues()[0], least = weakest.dot(noise * weakest);
+  if (square > least) return true;
   return refuse(
-      "the body turned too little about (%.2f, %.2f, %.2f): %.3g rad/s rms, which tells rows to %.2g where %.2g is "
+      "the body turned too little about (%.2f, %.2f, %.2f): %.3g rad/s rms, the noise is %.3g; turn it about that "
+      "axis too, or faster",
+      weakest[0], weakest[1], weakest[2], std::sqrt(std::max(square, 0.0)), std::sqrt(least));
+}
+
+/// The row's covariance told well enough in every direction.
+CommissionExpected<bool> row_told(std::size_t axis, const Eigen::Matrix3d& covariance, double limit) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const double sigma = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
+  if (sigma <= limit) return true;
+  const Eigen::Vector3d along = eigen.eigenvectors().col(2);
+  return refuse(
+      "the body turned too little about (%.2f, %.2f, %.2f): there the row of gyro axis %d is told to %.2g, %.2g is "
       "needed; turn it about that axis too, faster or for longer",
-      weakest[0], weakest[1], weakest[2], rate, sigma, row_sigma);
+      along[0], along[1], along[2], static_cast<int>(axis), sigma, limit);
 }
 
 /// Standard deviations from the fit's covariance into the axes; refused where one is too large.
@@ -295,8 +303,7 @@ CommissionExpected<bool> told(const Matrix& covariance, Index open, const Layout
     for (Index r = 0; r < 3; ++r) {
       for (Index c = 0; c < 3; ++c) one.row_covariance[static_cast<std::size_t>(3 * r + c)] = own(r, c);
     }
-    double row = 0.0, force = 0.0;
-    for (Index c = 0; c < 3; ++c) row = std::max(row, std::sqrt(own(c, c)));
+    double force = 0.0;
     for (Index c = 0; layout.force && c < 3; ++c) {
       const double sigma = std::sqrt(own(layout.force_at() + c, layout.force_at() + c));
       one.per_force_sigma[static_cast<std::size_t>(c)] = sigma;
@@ -306,7 +313,7 @@ CommissionExpected<bool> told(const Matrix& covariance, Index open, const Layout
     Vector bias = Vector::Unit(p, Layout::bias_at);
     if (layout.force) bias.segment<3>(layout.force_at()) = -rest_force;
     one.bias_sigma_radps = std::sqrt(bias.dot(own * bias));
-    for (const auto& result : {check(i, "the row", row, settings.row_sigma),
+    for (const auto& result : {row_told(i, own.topLeftCorner<3, 3>(), settings.row_sigma),
                                check(i, "the delay [s]", one.delay_sigma_s, settings.delay_sigma_s),
                                check(i, "the g-sensitivity [rad/s per m/s2]", force, settings.force_sigma),
                                check(i, "the bias [rad/s]", one.bias_sigma_radps, settings.bias_sigma_radps)}) {
@@ -370,7 +377,7 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
     const int late = latest(out, settings.delay_limit_s);
     if (!settled && late < 0 && out.steps < kSteps) continue;
     // What the motion leaves open comes first: it is why a delay runs away or steps do not settle.
-    auto seen = moved(sums, out, layout, variance, settings.row_sigma);
+    auto seen = moved(sums, layout, variance);
     if (seen) seen = told(variance * now.covariance, now.open, layout, settings, rest.force_mps2, &out);
     if (!seen) return tl::unexpected<std::string>(seen.error());
     if (late >= 0)
