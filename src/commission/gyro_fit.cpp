@@ -253,20 +253,21 @@ tl::unexpected<std::string> too_few(const GyroLog& log, const std::vector<GyroNo
       samples, least, static_cast<int>(worst), most, static_cast<int>(log.samples()));
 }
 
-/// The body must have turned about every axis by more than the noise of the rate.
-CommissionExpected<bool> moved(const Sums& sums, const Layout& layout, double variance) {
+/// The body must have turned about every axis by more than the noise of the rate, and than rows off nominal pretend.
+CommissionExpected<bool> moved(const Sums& sums, const Layout& layout, double variance, double least_ratio) {
   Eigen::Matrix3d spread = sums.terms.topLeftCorner<3, 3>() / sums.samples;
   const Eigen::Vector3d mean = sums.terms.block<3, 1>(0, kOne) / sums.samples;
   if (!layout.rest) spread -= mean * mean.transpose();
   const Eigen::Matrix3d noise = variance * sums.solve * sums.solve.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread - noise);
   const Eigen::Vector3d weakest = eigen.eigenvectors().col(0);
-  const double square = eigen.eigenvalues()[0], least = weakest.dot(noise * weakest);
-  if (square > least) return true;
+  const auto rms = [&](Eigen::Index k) { return std::sqrt(std::max(eigen.eigenvalues()[k], 0.0)); };
+  const double least = std::max(std::sqrt(weakest.dot(noise * weakest)), least_ratio * rms(2));
+  if (rms(0) > least) return true;
   return refuse(
-      "the body turned too little about (%.2f, %.2f, %.2f): %.3g rad/s rms, the noise is %.3g; turn it about that "
-      "axis too, or faster",
-      weakest[0], weakest[1], weakest[2], std::sqrt(std::max(square, 0.0)), std::sqrt(least));
+      "the body turned too little about (%.2f, %.2f, %.2f): %.3g rad/s rms, %.3g is needed beside noise and the "
+      "other axes; turn it about that axis too, or faster",
+      weakest[0], weakest[1], weakest[2], rms(0), least);
 }
 
 /// The row's covariance told well enough in every direction.
@@ -313,8 +314,9 @@ CommissionExpected<bool> told(const Matrix& covariance, Index open, const Layout
     Vector bias = Vector::Unit(p, Layout::bias_at);
     if (layout.force) bias.segment<3>(layout.force_at()) = -rest_force;
     one.bias_sigma_radps = std::sqrt(bias.dot(own * bias));
-    for (const auto& result : {row_told(i, own.topLeftCorner<3, 3>(), settings.row_sigma),
-                               check(i, "the delay [s]", one.delay_sigma_s, settings.delay_sigma_s),
+    const auto row = row_told(i, own.topLeftCorner<3, 3>(), settings.row_sigma);
+    if (!row) return row;
+    for (const auto& result : {check(i, "the delay [s]", one.delay_sigma_s, settings.delay_sigma_s),
                                check(i, "the g-sensitivity [rad/s per m/s2]", force, settings.force_sigma),
                                check(i, "the bias [rad/s]", one.bias_sigma_radps, settings.bias_sigma_radps)}) {
       if (!result) return result;
@@ -365,6 +367,8 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
     const Sums sums = sums_of(log, out, layout, rest);
     if (sums.samples < settings.least_samples) return too_few(log, nominal, sums.samples, settings.least_samples);
     const double variance = variance_of(sums, n, parameters);
+    const auto turned = moved(sums, layout, 0.0, out.steps > 1 ? 0.0 : settings.least_ratio);
+    if (!turned) return tl::unexpected<std::string>(turned.error());
     const Solved now = solved(sums, out, layout);
     double largest = 0.0;
     for (Index k = 0; k < now.step.size(); ++k)
@@ -377,7 +381,7 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
     const int late = latest(out, settings.delay_limit_s);
     if (!settled && late < 0 && out.steps < kSteps) continue;
     // What the motion leaves open comes first: it is why a delay runs away or steps do not settle.
-    auto seen = moved(sums, layout, variance);
+    auto seen = moved(sums, layout, variance, 0.0);
     if (seen) seen = told(variance * now.covariance, now.open, layout, settings, rest.force_mps2, &out);
     if (!seen) return tl::unexpected<std::string>(seen.error());
     if (late >= 0)

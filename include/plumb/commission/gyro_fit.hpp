@@ -38,7 +38,9 @@ struct GyroFitSettings {
   bool delay = true;
   bool force = false;  ///< g-sensitivity, from `force_mps2`
   int least_samples = 500;
-  int least_rest = 100;          ///< samples at rest that biases are taken from
+  int least_rest = 100;  ///< samples at rest that biases are taken from
+  /// rms rate about the least turned direction over that about the most: below, rows off nominal pretend as much.
+  double least_ratio = 0.05;
   double row_sigma = 0.005;      ///< a motion that tells rows less well is refused
   double delay_sigma_s = 0.001;  ///< so is one that tells delays less well
   double delay_limit_s = 0.02;   ///< and a delay beyond this
