@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "gyro_series.hpp"
 
@@ -18,13 +17,6 @@ using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 using Wide = Eigen::Matrix<double, 3, 9>;
 using Square = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-template <class... Values>
-tl::unexpected<std::string> refuse(const char* format, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return tl::unexpected<std::string>(text.data());
-}
 
 Eigen::Matrix3d cross_of(const Eigen::Vector3d& v) {
   Eigen::Matrix3d out;
@@ -62,17 +54,19 @@ Carried carry(const std::vector<Vec3>& rate, const GravityTurn& turn, double per
 CommissionExpected<std::vector<Vec3>> rates_for(const GyroLog& log, const GyroFit& fit,
                                                 const std::vector<GravityTurn>& turns) {
   std::vector<Vec3> rate = common_rates(log, fit);
-  if (rate.empty()) return refuse("the log has other axes than the fit, or no period: use the array that was fitted");
+  if (rate.empty())
+    return gyro_refusal("the log has other axes than the fit, or no period: use the array that was fitted");
   for (std::size_t t = 0; t < turns.size(); ++t) {
     const GravityTurn& turn = turns[t];
     if (turn.end <= turn.begin || turn.end >= rate.size() || !(turn.sigma_rad > 0.0) || !(norm(turn.before) > 0.0) ||
         !(norm(turn.after) > 0.0))
-      return refuse("turn %d: it must end after it begins, within the log, with directions and a sigma above 0",
-                    static_cast<int>(t));
+      return gyro_refusal("turn %d: it must end after it begins, within the log, with directions and a sigma above 0",
+                          static_cast<int>(t));
     for (std::size_t k = turn.begin; k <= turn.end; ++k) {
       if (!std::isfinite(norm(rate[k])))
-        return refuse("turn %d: an axis is saturated or not given at sample %d; leave the turn out or turn more slowly",
-                      static_cast<int>(t), static_cast<int>(k));
+        return gyro_refusal(
+            "turn %d: an axis is saturated or not given at sample %d; leave the turn out or turn more slowly",
+            static_cast<int>(t), static_cast<int>(k));
     }
   }
   return rate;
@@ -116,11 +110,11 @@ CommissionExpected<Matrix9> covariance_of(const Matrix9& normal, double limit) {
   for (Eigen::Index k = 0; k < 9; ++k) open += eigen.eigenvalues()[k] * limit * limit > 1.0 ? 0 : 1;
   const auto name = [](Eigen::Index axis) { return "xyz"[axis]; };
   if (at / 3 == at % 3)
-    return refuse(
+    return gyro_refusal(
         "the turns leave %d of 9 directions open, above all the scale about %c: add turns about %c with gravity "
         "across it",
         open, name(at / 3), name(at / 3));
-  return refuse(
+  return gyro_refusal(
       "the turns leave %d of 9 directions open, above all what a turn about %c reads as one about %c: add turns "
       "about %c in other attitudes, none with gravity along it",
       open, name(at % 3), name(at / 3), name(at % 3));
@@ -131,9 +125,10 @@ CommissionExpected<Matrix9> covariance_of(const Matrix9& normal, double limit) {
 CommissionExpected<CommonMatrix> fit_common(const GyroLog& log, const GyroFit& fit,
                                             const std::vector<GravityTurn>& turns, const CommonSettings& settings) {
   if (turns.size() < 5)
-    return refuse("%d turns: each tells two of nine numbers, 5 are needed at least", static_cast<int>(turns.size()));
+    return gyro_refusal("%d turns: each tells two of nine numbers, 5 are needed at least",
+                        static_cast<int>(turns.size()));
   if (!fit.bias_from_rest)
-    return refuse("biases are not from rest: a common one would pass for a turn; mark the samples at rest");
+    return gyro_refusal("biases are not from rest: a common one would pass for a turn; mark the samples at rest");
   const auto rate = rates_for(log, fit, turns);
   if (!rate) return tl::unexpected<std::string>(rate.error());
   Square matrix = Square::Identity();
@@ -146,7 +141,7 @@ CommissionExpected<CommonMatrix> fit_common(const GyroLog& log, const GyroFit& f
     if (step.norm() > kSettled) {
       matrix += Eigen::Map<const Square>(step.data());
       if ((matrix - Square::Identity()).cwiseAbs().maxCoeff() < settings.largest) continue;
-      return refuse(
+      return gyro_refusal(
           "the common matrix differs from 1 by more than %.2g: gyros and accelerometers have other frames; turn "
           "the nominal axes into that of the accelerometers first",
           settings.largest);
@@ -155,7 +150,7 @@ CommissionExpected<CommonMatrix> fit_common(const GyroLog& log, const GyroFit& f
     const double free = std::max(1.0, 2.0 * count - 9.0);
     const double rms = std::sqrt(normal.square / free);
     if (rms > settings.allowed_sigmas)
-      return refuse(
+      return gyro_refusal(
           "gravity as carried is off by %.2g of the stated sigmas rms, %.2g is allowed: a station moved, a turn is "
           "paired wrongly, or biases have drifted",
           rms, settings.allowed_sigmas);
@@ -164,8 +159,8 @@ CommissionExpected<CommonMatrix> fit_common(const GyroLog& log, const GyroFit& f
     Eigen::Map<Matrix9>(out.covariance.data()) = *covariance * std::max(1.0, rms * rms);
     return out;
   }
-  return refuse("the common matrix does not settle in %d steps: shorten the turns to less than half a revolution",
-                kSteps);
+  return gyro_refusal("the common matrix does not settle in %d steps: shorten the turns to less than half a revolution",
+                      kSteps);
 }
 
 GyroFit with_common(const GyroFit& fit, const CommonMatrix& common) {
@@ -189,7 +184,7 @@ GyroFit with_common(const GyroFit& fit, const CommonMatrix& common) {
 
 CommissionExpected<double> turn_residual_rad(const GyroLog& log, const GyroFit& fit,
                                              const std::vector<GravityTurn>& turns) {
-  if (turns.empty()) return refuse("no turns: nothing to hold the fit against");
+  if (turns.empty()) return gyro_refusal("no turns: nothing to hold the fit against");
   const auto rate = rates_for(log, fit, turns);
   if (!rate) return tl::unexpected<std::string>(rate.error());
   const Normal normal = normal_of(*rate, turns, log.period_s, Eigen::Matrix3d::Identity());

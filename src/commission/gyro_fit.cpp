@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "gyro_series.hpp"
@@ -33,13 +32,6 @@ struct Layout {
   /// Dimensions that gyros alone do not tell.
   Index common() const { return 9 + (rest ? 0 : 3) + (delay ? 1 : 0) + (force ? 9 : 0); }
 };
-
-template <class... Values>
-tl::unexpected<std::string> refuse(const char* format, Values... values) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return tl::unexpected<std::string>(text.data());
-}
 
 /// What a log says at the present parameters, all in units of the axes' noise.
 struct Sums {
@@ -216,22 +208,23 @@ void pin(const Layout& layout, const Eigen::Vector3d& rest_force, GyroFit* fit) 
 CommissionExpected<bool> shaped(const GyroLog& log, const std::vector<GyroNominal>& nominal,
                                 const GyroFitSettings& settings) {
   if (nominal.size() < 4)
-    return refuse("%d gyro axes: at least 4 are needed, because three explain any reading",
-                  static_cast<int>(nominal.size()));
+    return gyro_refusal("%d gyro axes: at least 4 are needed, because three explain any reading",
+                        static_cast<int>(nominal.size()));
   if (!gyro_shape_fits(log, nominal.size()))
-    return refuse("the log must have a period above 0 and %d axes of equal length: check columns and rows",
-                  static_cast<int>(nominal.size()));
+    return gyro_refusal("the log must have a period above 0 and %d axes of equal length: check columns and rows",
+                        static_cast<int>(nominal.size()));
   if (settings.force && log.force_mps2.empty())
-    return refuse("g-sensitivity needs the specific force at every sample: give force_mps2 or leave it out");
+    return gyro_refusal("g-sensitivity needs the specific force at every sample: give force_mps2 or leave it out");
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     const Eigen::Vector3d axis = eigen_of_gyro(nominal[i].axis);
     if (!(std::fabs(axis.norm() - 1.0) < 1e-3) || !(nominal[i].noise_radps > 0.0))
-      return refuse("gyro axis %d: the nominal axis must have length 1 and its noise be above 0", static_cast<int>(i));
+      return gyro_refusal("gyro axis %d: the nominal axis must have length 1 and its noise be above 0",
+                          static_cast<int>(i));
     spread += axis * axis.transpose();
   }
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues()[0] < 0.01)
-    return refuse("the nominal gyro axes lie in one plane: a rate across it is not sensed");
+    return gyro_refusal("the nominal gyro axes lie in one plane: a rate across it is not sensed");
   return true;
 }
 
@@ -246,8 +239,8 @@ tl::unexpected<std::string> too_few(const GyroLog& log, const std::vector<GyroNo
     most = lost;
     worst = i;
   }
-  if (most == 0) return refuse("%d samples: at least %d are needed; record for longer", samples, least);
-  return refuse(
+  if (most == 0) return gyro_refusal("%d samples: at least %d are needed; record for longer", samples, least);
+  return gyro_refusal(
       "%d samples at which all axes are given, at least %d are needed: axis %d is saturated or not given at %d "
       "of %d; turn more slowly or leave the axis out",
       samples, least, static_cast<int>(worst), most, static_cast<int>(log.samples()));
@@ -264,7 +257,7 @@ CommissionExpected<bool> moved(const Sums& sums, const Layout& layout, double va
   const auto rms = [&](Eigen::Index k) { return std::sqrt(std::max(eigen.eigenvalues()[k], 0.0)); };
   const double least = std::max(std::sqrt(weakest.dot(noise * weakest)), least_ratio * rms(2));
   if (rms(0) > least) return true;
-  return refuse(
+  return gyro_refusal(
       "the body turned too little about (%.2f, %.2f, %.2f): %.3g rad/s rms, %.3g is needed beside noise and the "
       "other axes; turn it about that axis too, or faster",
       weakest[0], weakest[1], weakest[2], rms(0), least);
@@ -276,7 +269,7 @@ CommissionExpected<bool> row_told(std::size_t axis, const Eigen::Matrix3d& covar
   const double sigma = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
   if (sigma <= limit) return true;
   const Eigen::Vector3d along = eigen.eigenvectors().col(2);
-  return refuse(
+  return gyro_refusal(
       "the body turned too little about (%.2f, %.2f, %.2f): there the row of gyro axis %d is told to %.2g, %.2g is "
       "needed; turn it about that axis too, faster or for longer",
       along[0], along[1], along[2], static_cast<int>(axis), sigma, limit);
@@ -286,14 +279,14 @@ CommissionExpected<bool> row_told(std::size_t axis, const Eigen::Matrix3d& covar
 CommissionExpected<bool> told(const Matrix& covariance, Index open, const Layout& layout,
                               const GyroFitSettings& settings, const Eigen::Vector3d& rest_force, GyroFit* fit) {
   if (open > layout.common())
-    return refuse(
+    return gyro_refusal(
         "the motion leaves %d combinations of rows, biases and delays open: turn about more axes, with changing "
         "rates; an axis that no other axes check has no delay",
         static_cast<int>(open - layout.common()));
   const Index p = layout.size();
   const auto check = [](std::size_t axis, const char* what, double sigma, double limit) -> CommissionExpected<bool> {
     if (sigma <= limit) return true;
-    return refuse(
+    return gyro_refusal(
         "the motion tells %s of gyro axis %d to %.3g only, %.3g is needed: turn about more axes, with changing "
         "rates, or for longer",
         what, static_cast<int>(axis), sigma, limit);
@@ -357,8 +350,8 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
   const Layout layout{has_rest(log), settings.delay, settings.force};
   const GyroRest rest = gyro_rest(log, nominal);
   if (layout.rest && rest.samples < settings.least_rest)
-    return refuse("%d samples at rest: at least %d are needed for biases; rest longer or state none", rest.samples,
-                  settings.least_rest);
+    return gyro_refusal("%d samples at rest: at least %d are needed for biases; rest longer or state none",
+                        rest.samples, settings.least_rest);
   GyroFit out = start_of(nominal, settings);
   out.bias_from_rest = layout.rest;
   if (layout.rest) take_bias(rest, &out.axis);
@@ -385,7 +378,7 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
     if (seen) seen = told(variance * now.covariance, now.open, layout, settings, rest.force_mps2, &out);
     if (!seen) return tl::unexpected<std::string>(seen.error());
     if (late >= 0)
-      return refuse(
+      return gyro_refusal(
           "gyro axis %d is delayed by %.3g s or more against the others, %.3g s is the limit: bring it to "
           "their clock first",
           late, out.axis[static_cast<std::size_t>(late)].delay_s, settings.delay_limit_s);
@@ -393,7 +386,7 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
     out.residual = gyro_residual(log, out);
     return out;
   }
-  return refuse("the fit does not settle in %d steps: nominal axes may be wrong, see signs and order", kSteps);
+  return gyro_refusal("the fit does not settle in %d steps: nominal axes may be wrong, see signs and order", kSteps);
 }
 
 }  // namespace commission

@@ -2,12 +2,24 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
+#include <cstdio>
+#include <string>
 
 #include "plumb/commission/gyro_fit.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace commission {
+
+inline tl::unexpected<std::string> gyro_refusal(const char* text) { return tl::unexpected<std::string>(text); }
+/// The format is that of printf.
+template <class... Values>
+tl::unexpected<std::string> gyro_refusal(const char* format, Values... values) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return tl::unexpected<std::string>(text.data());
+}
 
 /// Means over the samples at rest at which every axis is given.
 struct GyroRest {
