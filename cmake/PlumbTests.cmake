@@ -268,13 +268,16 @@ if(TARGET plumb_tool)
   if(PLUMB_PYTHON3)
     add_test(NAME cli.tour COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/tour" --check
       "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/tour_test")
+    add_test(NAME cli.survey_tour COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/tour" --check --page docs/survey.md
+      "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/survey_tour_test")
     add_test(NAME docs.sizes COMMAND "${PLUMB_PYTHON3}" -B "${PROJECT_SOURCE_DIR}/scripts/sizes" --check
       "$<TARGET_FILE:plumb_tool>" "${PROJECT_BINARY_DIR}/sizes_test")
   else()
     add_test(NAME cli.tour COMMAND bash -c "echo 'skipped: no python3'; exit 77")
+    add_test(NAME cli.survey_tour COMMAND bash -c "echo 'skipped: no python3'; exit 77")
     add_test(NAME docs.sizes COMMAND bash -c "echo 'skipped: no python3'; exit 77")
   endif()
-  set_tests_properties(cli.manual cli.tour PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
+  set_tests_properties(cli.manual cli.tour cli.survey_tour PROPERTIES LABELS host SKIP_RETURN_CODE 77 TIMEOUT 900)
   set_tests_properties(docs.sizes PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 900)
 endif()
 

@@ -4,11 +4,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 
 #include "plumb/io/output_file.hpp"
+#include "plumb/io/printable.hpp"
 #include "plumb/render/survey_report.hpp"
 #include "plumb/survey/station_file.hpp"
 #include "plumb/survey/survey_csv.hpp"
+#include "survey_page.hpp"
 #include "survey_reference.hpp"
 #include "tool.hpp"
 
@@ -27,7 +30,7 @@ struct SurveyOptions {
   double false_alarm = 0.0027;
   double risk = 1e-4;
   bool axial = false;
-  std::string csv;
+  std::string csv, page;
   bool json = false;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
 };
@@ -69,14 +72,51 @@ std::optional<io::FileError> missing_for_north(const SurveyOptions& options, con
     return io::FileError{"--north",
                          0,
                          "",
-                         "there is no declination to turn magnetic azimuths by",
-                         "state --declination, or --place and --date",
+                         "there is no declination to turn magnetic azimuths by" +
+                             (reference.field.declination_note.empty() ? "" : ": " + reference.field.declination_note),
+                         "state --field, --dip and --declination, or --place and --date",
                          io::ExitCode::usage};
   if (*options.north == survey::North::grid && options.convergence.empty())
     return io::FileError{
         "--north",          0, "", "there is no convergence to turn true azimuths by", "state --convergence",
         io::ExitCode::usage};
   return std::nullopt;
+}
+
+/// The command that makes the page again.
+std::string command_of(const SurveyOptions& o) {
+  const SurveyOptions usual;
+  const ReferenceOptions& r = o.reference;
+  const std::tuple<const char*, const std::string&, const std::string&> texts[] = {
+      {"--place", r.place, usual.reference.place},
+      {"--height", r.height, usual.reference.height},
+      {"--date", r.date, usual.reference.date},
+      {"--coefficients", r.coefficients, usual.reference.coefficients},
+      {"--gravity", r.gravity, usual.reference.gravity},
+      {"--gravity-sigma", r.gravity_sigma, usual.reference.gravity_sigma},
+      {"--field", r.field, usual.reference.field},
+      {"--field-sigma", r.field_sigma, usual.reference.field_sigma},
+      {"--dip", r.dip, usual.reference.dip},
+      {"--dip-sigma", r.dip_sigma, usual.reference.dip_sigma},
+      {"--declination", r.declination, usual.reference.declination},
+      {"--declination-sigma", r.declination_sigma, usual.reference.declination_sigma},
+      {"--convergence", o.convergence, usual.convergence},
+      {"--noise-gravity", o.noise_gravity, usual.noise_gravity},
+      {"--noise-field", o.noise_field, usual.noise_field},
+      {"--csv", o.csv, usual.csv},
+      {"--report", o.page, usual.page}};
+  std::string out = "plumb survey " + io::shell_word(o.stations);
+  for (const auto& [option, text, left_out] : texts) {
+    if (text != left_out) out += fmt::format(" {} {}", option, io::shell_word(text));
+  }
+  if (r.errors == ReferenceErrors::wmm) out += " --reference-errors wmm";
+  if (o.north) out += fmt::format(" --north {}", to_string(*o.north));
+  if (o.limits == survey::LimitKind::fixed) out += " --limits fixed";
+  if (o.false_alarm != usual.false_alarm) out += fmt::format(" --false-alarm {}", o.false_alarm);
+  if (o.risk != usual.risk) out += fmt::format(" --risk {}", o.risk);
+  if (o.axial) out += " --axial";
+  if (o.on_bad_row == io::BadRowPolicy::skip) out += " --on-bad-row skip";
+  return out;
 }
 
 /// What is said where a result was written, yet is not all that was asked for.
@@ -94,8 +134,9 @@ io::ExitCode verdict(const SurveyOptions& options, const survey::Survey& found) 
 }
 
 io::ExitCode run_survey_command(const SurveyOptions& options) {
-  if (const auto clash = overwritten({{"--csv", options.csv}}, {{"STATIONS", options.stations},
-                                                                {"--coefficients", options.reference.coefficients}}))
+  if (const auto clash =
+          overwritten({{"--csv", options.csv}, {"--report", options.page}},
+                      {{"STATIONS", options.stations}, {"--coefficients", options.reference.coefficients}}))
     return report(*clash);
   io::FileExpected<survey::SurveySettings> settings = survey_settings(options);
   if (!settings) return report(settings.error());
@@ -126,6 +167,12 @@ io::ExitCode run_survey_command(const SurveyOptions& options) {
                    io::ExitCode::invalid_input});
   if (!options.csv.empty()) {
     if (const auto written = io::write_file(options.csv, survey::survey_csv(found.survey)); !written)
+      return report(written.error());
+  }
+  if (!options.page.empty()) {
+    const std::vector<std::pair<const char*, std::string>> inputs{{"stations", options.stations},
+                                                                  {"coefficients", options.reference.coefficients}};
+    if (const auto written = write_survey_page(options.page, found, inputs, command_of(options)); !written)
       return report(written.error());
   }
   print(options.json ? render::survey_json(found).dump(2) + "\n" : render::survey_text(found));
@@ -182,6 +229,8 @@ Command add_survey(const Options& tool) {
   command.add_flag("--axial", options->axial,
                    "estimate the axial interference of the drill string from all stations, and take it off");
   command.add_option("--csv", options->csv, "write the survey as a table").type_name("OUT.csv");
+  command.add_option("--report", options->page, "write a page with every check, plots (gnuplot) and references")
+      .type_name("FILE.html");
   command.add_flag("--json", options->json, "JSON instead of text, for machines");
   add_bad_row_option(command, options->on_bad_row);
   command.footer(kSurveyNotes + exit_codes_help());

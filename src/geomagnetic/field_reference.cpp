@@ -61,6 +61,11 @@ FieldReference reference_of(const EarthField& field, const ErrorModel& errors) {
   out.declination_rad = field.value.declination_rad;
   out.declination_rad_sigma = {declination_sigma_rad(errors.common, field.value.horizontal_tesla),
                                declination_sigma_rad(errors.random, field.value.horizontal_tesla)};
+  if (field.north_undefined)
+    out.declination_note = "at a pole of rotation there is no true north";
+  else if (field.zone != FieldZone::usual)
+    out.declination_note = fmt::format("{}: the horizontal field is {:.0f} nT, too weak to rely on its direction",
+                                       to_string(field.zone), field.value.horizontal_tesla / kTeslaPerNt);
   return out;
 }
 

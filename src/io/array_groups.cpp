@@ -177,6 +177,19 @@ InputSpec input_of(const TomlTable& table, const ArrayFile& tool, FieldKind fiel
   return out;
 }
 
+/// It stands in the names of files and on command lines.
+std::string read_name(const TomlTable& table, const char* usual) {
+  constexpr std::size_t kLongest = 31;
+  const std::string name = table.text("name", usual);
+  const bool plain =
+      name.size() <= kLongest && name.front() != '-' &&
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  if (!plain)
+    table.fail(table.line_of("name"), "name", "is " + in_quotes(name) + ", and names files and groups on command lines",
+               "use 1 to 31 letters, digits, _ and -, not - first: name = \"mag\"");
+  return name;
+}
+
 ArrayFile group_of(const TomlNode& node, const std::string& prefix, const ArrayFile& tool, const FieldLookup& lookup) {
   const std::string path = prefix.substr(0, prefix.size() - 1);
   const TomlTable any(node, tool.path, path, {"name", "field", "unit", "reference", "monitor", "rate", "sensor"});
@@ -187,7 +200,7 @@ ArrayFile group_of(const TomlNode& node, const std::string& prefix, const ArrayF
   const TomlTable table(node, tool.path, path, group_keys(field), field);
   ArrayFile out;
   out.field = field;
-  out.group = table.text("name", to_string(field));
+  out.group = read_name(table, to_string(field));
   out.path = tool.path + "#" + out.group;
   out.name = tool.name + " " + out.group;
   out.text = tool.text;

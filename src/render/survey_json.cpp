@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/printable.hpp"
 #include "plumb/render/survey_report.hpp"
@@ -67,15 +69,29 @@ Json axial_json(const survey::Survey& s) {
                  {"freedom", e.freedom}});
 }
 
+Json saturated_json(const survey::Survey& s) {
+  Json out = Json::array();
+  for (const survey::SaturatedChannel& one : s.saturated)
+    out.push_back(object({{"component", one.component}, {"stations", one.stations}, {"text", one.text()}}));
+  return out;
+}
+
 Json path_json(const survey::Survey& s) {
   Json out = Json::array();
   if (!s.path) return out;
-  for (const survey::PathPoint& p : *s.path)
+  for (std::size_t k = 0; k < s.path->size(); ++k) {
+    const survey::PathPoint& p = (*s.path)[k];
+    const survey::PositionCovariance& c = s.position_covariance[k];
     out.push_back(object({{"md_m", p.md_m},
                           {"north_m", p.north_m},
                           {"east_m", p.east_m},
                           {"tvd_m", p.tvd_m},
-                          {"dogleg_deg_per_30m", p.dogleg_deg_per_30m}}));
+                          {"dogleg_deg_per_30m", p.dogleg_deg_per_30m},
+                          {"sigma_north_m", std::sqrt(c[0])},
+                          {"sigma_east_m", std::sqrt(c[4])},
+                          {"sigma_tvd_m", std::sqrt(c[8])},
+                          {"covariance_m2", c}}));
+  }
   return out;
 }
 
@@ -97,7 +113,9 @@ nlohmann::ordered_json survey_json(const SurveyReport& r) {
                  {"false_alarm", r.settings.station.checks.false_alarm},
                  {"field_source", io::printable_line(f.source)},
                  {"declination_deg", f.declination_known ? Json(deg_from_rad(f.declination_rad)) : Json()},
+                 {"declination_note", f.declination_note},
                  {"rows_left_out", r.rows_left_out},
+                 {"saturated", saturated_json(r.survey)},
                  {"stations", std::move(stations)},
                  {"error_tests", std::move(tests)},
                  {"axial_interference", axial_json(r.survey)},

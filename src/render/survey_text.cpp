@@ -3,7 +3,9 @@
 #include <iterator>
 
 #include "plumb/io/printable.hpp"
+#include "plumb/render/figures.hpp"
 #include "plumb/render/survey_report.hpp"
+#include "survey_words.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,33 +15,22 @@ namespace {
 using survey::Angle;
 using survey::OrUndefined;
 
-constexpr double kMg_mps2 = 1e-3 * kG0_mps2;
-
-std::string degrees_or_dash(const OrUndefined<Angle>& angle) {
-  return angle ? fmt::format("{:.2f}", deg_from_rad(angle->rad)) : "-";
-}
-
-/// "0.4 to 0.5", or one of them where both are written alike.
-std::string span(const std::string& first, const std::string& last) {
-  return first == last ? first : first + " to " + last;
-}
-
 std::string references(const SurveyReport& r) {
   const auto gravity = [](const survey::Reference& at) { return fmt::format("{:.5f}", at.gravity.g_mps2); };
   const auto field = [](const survey::Reference& at) { return fmt::format("{:.0f}", at.field.total_tesla * 1e9); };
   const auto dip = [](const survey::Reference& at) { return fmt::format("{:.2f}", deg_from_rad(at.field.dip_rad)); };
   const geomagnetic::FieldReference& f = r.first.field;
-  const auto sigma = [](const geomagnetic::Sigma& s) { return std::hypot(s.common, s.random); };
   std::string out = fmt::format(
       "Reference: gravity {} m/s^2 (1 sigma {:.2f} mg), field {} nT ({:.0f} nT), dip {} deg ({:.2f} deg); {}\n",
-      span(gravity(r.first), gravity(r.last)), r.first.gravity.sigma_mps2 / kMg_mps2,
-      span(field(r.first), field(r.last)), sigma(f.total_tesla_sigma) * 1e9, span(dip(r.first), dip(r.last)),
-      deg_from_rad(sigma(f.dip_rad_sigma)), io::printable_line(f.source));
+      survey_span(gravity(r.first), gravity(r.last)), r.first.gravity.sigma_mps2 / kMg_mps2,
+      survey_span(field(r.first), field(r.last)), total_sigma(f.total_tesla_sigma) * 1e9,
+      survey_span(dip(r.first), dip(r.last)), deg_from_rad(total_sigma(f.dip_rad_sigma)), io::printable_line(f.source));
   if (f.declination_known)
     out += fmt::format("Declination: {:.2f} deg from true north ({:.2f} deg)\n", deg_from_rad(f.declination_rad),
-                       deg_from_rad(sigma(f.declination_rad_sigma)));
+                       deg_from_rad(total_sigma(f.declination_rad_sigma)));
   else
     out += "Declination: not known; azimuths are magnetic\n";
+  if (!f.declination_note.empty()) out += "Declination: " + f.declination_note + "\n";
   if (r.settings.station.convergence.known)
     out += fmt::format("Convergence: {:.2f} deg from true to grid north\n",
                        deg_from_rad(r.settings.station.convergence.rad));
@@ -51,60 +42,22 @@ std::string station_lines(const SurveyReport& r) {
                                 "PL inc", "PL azi", "GTF", "dG mg", "dB nT", "dDip", "verdict");
   for (const survey::SurveyStation& s : r.survey.stations) {
     const OrUndefined<Angle> azimuth = survey::azimuth_from(s, r.survey.north);
-    const auto level = [&](const OrUndefined<Angle>& angle) {
-      return angle ? fmt::format("{:.2f}", deg_from_rad(survey::protection_level_rad(*angle, r.survey.integrity_risk)))
-                   : "-";
-    };
-    fmt::format_to(std::back_inserter(out), "{:>9.2f} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8.2f} {:>7.0f} {:>7.2f}  {}",
-                   s.measured.md_m, degrees_or_dash(s.attitude.inclination), degrees_or_dash(azimuth),
-                   level(s.attitude.inclination), level(azimuth), degrees_or_dash(s.attitude.gravity_toolface),
-                   s.checks.gravity.difference() / kMg_mps2, s.checks.field.difference() * 1e9,
-                   deg_from_rad(s.checks.dip.difference()), to_string(s.status));
+    fmt::format_to(std::back_inserter(out), "{:>9.2f} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7}  {}",
+                   s.measured.md_m, survey_degrees(s.attitude.inclination), survey_degrees(azimuth),
+                   survey_level(s.attitude.inclination, r.survey.integrity_risk),
+                   survey_level(azimuth, r.survey.integrity_risk), survey_degrees(s.attitude.gravity_toolface),
+                   fixed_words(s.checks.gravity.difference() / kMg_mps2, 2),
+                   fixed_words(s.checks.field.difference() * 1e9, 0),
+                   fixed_words(deg_from_rad(s.checks.dip.difference()), 2), to_string(s.status));
     if (!s.flags().empty()) out += " (" + s.flags() + ")";
     out += '\n';
   }
   return out;
 }
 
-/// "gravity: passed", or which of the tests found what.
 std::string test_line(const char* kind, const survey::ErrorTest& test, double unit, const char* name,
                       const SurveyReport& r) {
-  std::string out = fmt::format("  {:<8}", kind);
-  if (test.passed()) return out + "passed\n";
-  std::string said;
-  const auto add = [&said](const std::string& text) { said += (said.empty() ? "" : "; ") + text; };
-  if (!test.one_passed()) {
-    const auto worst = static_cast<std::size_t>(test.worst);
-    add(fmt::format("the station at {:.2f} m is off by {:.1f} sigma, at most {:.1f}",
-                    r.survey.stations[worst].measured.md_m, std::fabs(test.normalised[worst]), test.one_limit));
-  }
-  if (!test.mean_passed())
-    add(fmt::format("all together are off by {:.3g} {}, at most {:.2g}", test.mean / unit, name,
-                    test.mean_limit / unit));
-  if (!test.all_passed()) add(fmt::format("chi-square {:.1f}, at most {:.1f}", test.chi_square, test.chi_square_limit));
-  return out + said + "\n";
-}
-
-std::string axial_text(const survey::Survey& s) {
-  if (!s.axial) return "";
-  if (!*s.axial) return "Axial interference: not estimated: " + s.axial->error().text() + ".\n";
-  const survey::Estimate& e = **s.axial;
-  const auto z = static_cast<std::size_t>(survey::Term::magnetometer_bias_z);
-  return fmt::format(
-      "Axial interference: {:.0f} nT, 1 sigma {:.0f} nT, taken off every station; its largest correlation with an "
-      "error of "
-      "a reference is {:.2f}, which the sigma holds.\n",
-      e.value[z] * 1e9, e.sigma[z] * 1e9, e.largest_reference_correlation);
-}
-
-std::string path_text(const survey::Survey& s) {
-  if (!s.path) return "Path: none: " + s.path.error().text() + "\n";
-  const survey::PathPoint& end = s.path->back();
-  return fmt::format(
-      "Path of {} stations, minimum curvature from {} north: at {:.2f} m north {:.2f} m, east {:.2f} m, true vertical "
-      "depth "
-      "{:.2f} m\n",
-      s.path->size(), to_string(s.north), end.md_m, end.north_m, end.east_m, end.tvd_m);
+  return fmt::format("  {:<8}{}\n", kind, error_test_words(test, unit, name, r.survey));
 }
 
 }  // namespace
@@ -121,7 +74,11 @@ std::string survey_text(const SurveyReport& r) {
     out += fmt::format(", false alarms of a check {:.2g}", r.settings.station.checks.false_alarm);
   out += fmt::format(". Protection levels at a risk of {:.2g}.\n\n", r.survey.integrity_risk);
   out += fmt::format("Angles in degrees, azimuths from {} north\n", to_string(r.survey.north));
-  out += station_lines(r) + "\n";
+  out += station_lines(r);
+  const std::string flags = flag_words(r.survey);
+  if (!flags.empty()) out += "Flags: " + flags + "\n";
+  for (const survey::SaturatedChannel& one : r.survey.saturated) out += one.text() + "\n";
+  out += "\n";
   if (r.survey.tests) {
     out += "Error tests of all stations together\n";
     out += test_line("gravity", r.survey.tests->gravity, kMg_mps2, "mg", r);
@@ -130,7 +87,8 @@ std::string survey_text(const SurveyReport& r) {
   } else {
     out += "Error tests: none: " + r.survey.tests_refused + "\n";
   }
-  return out + axial_text(r.survey) + path_text(r.survey);
+  if (r.survey.axial) out += axial_words(r.survey) + "\n";
+  return out + path_words(r.survey) + "\n";
 }
 
 }  // namespace render

@@ -14,6 +14,9 @@ inline namespace PLUMB_ABI {
 namespace survey {
 namespace {
 
+/// What is left of a difference of numbers that are alike: of an absurd station, whose shared error is 1e8 times its
+/// random one, the inverse's diagonal may round to 0, and is above it.
+constexpr double kRounding = 1e-15;
 constexpr int kShared = static_cast<int>(kTermCount) + 1;
 
 /// Residuals of one kind: C = diag(random) + shared shared'.
@@ -36,7 +39,9 @@ struct Inverse {
   Eigen::VectorXd times(const Eigen::VectorXd& v) const {
     return inverse_random.cwiseProduct(v) - scaled * (scaled.transpose() * v);
   }
-  Eigen::VectorXd diagonal() const { return inverse_random - scaled.rowwise().squaredNorm(); }
+  Eigen::VectorXd diagonal() const {
+    return (inverse_random - scaled.rowwise().squaredNorm()).cwiseMax(kRounding * inverse_random);
+  }
 };
 
 ErrorTest test_of(const Channel& channel, double false_alarm) {
@@ -44,7 +49,8 @@ ErrorTest test_of(const Channel& channel, double false_alarm) {
   const Inverse inverse(channel);
   const Eigen::VectorXd weighted = inverse.times(channel.residual);
   const Eigen::VectorXd normalised = weighted.cwiseQuotient(inverse.diagonal().cwiseSqrt());
-  const double of_ones = inverse.times(Eigen::VectorXd::Ones(n)).sum();
+  const double of_ones =
+      std::max(inverse.times(Eigen::VectorXd::Ones(n)).sum(), kRounding * inverse.inverse_random.sum());
   ErrorTest out;
   out.residual.assign(channel.residual.data(), channel.residual.data() + n);
   out.normalised.assign(normalised.data(), normalised.data() + n);

@@ -96,6 +96,7 @@ io::FileExpected<void> check_unit(std::vector<double> lengths, const Triad& tria
   double nearest = std::sqrt(most / least);
   for (const Unit& unit : units) {  // of several that would do, the one that gives the most usual length
     const double length = median / triad.unit.si * unit.si;
+    if (!(length > 0.0)) continue;
     const double off = length > usual ? length / usual : usual / length;
     if (!(off <= nearest)) continue;
     nearest = off;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 namespace plumb {
@@ -12,7 +13,7 @@ namespace {
 constexpr const char* kHeader =
     "MD_m,Inc_deg,AziMag_deg,AziTrue_deg,AziGrid_deg,GTF_deg,MTF_deg,Gt_mg,Bt_nT,Dip_deg,dGt_mg,dBt_nT,dDip_deg,QC,"
     "Flags,"
-    "sInc_deg,sAzi_deg,PLInc_deg,PLAzi_deg,TVD_m,North_m,East_m,DLS_deg_per_30m,AziNorth\n";
+    "sInc_deg,sAzi_deg,PLInc_deg,PLAzi_deg,TVD_m,North_m,East_m,DLS_deg_per_30m,sNorth_m,sEast_m,sTVD_m,AziNorth\n";
 
 /// Rounded up to the next turn, 360.00 is written as 0.00.
 std::string turn_text(const OrUndefined<Angle>& angle) {
@@ -35,7 +36,8 @@ std::string number(double value, int decimals) {
   return text.find_first_of("123456789") == std::string::npos && text[0] == '-' ? text.substr(1) : text;
 }
 
-void append_station(std::string& out, const Survey& survey, const SurveyStation& s, const PathPoint* point) {
+void append_station(std::string& out, const Survey& survey, const SurveyStation& s, const PathPoint* point,
+                    const PositionCovariance* covariance) {
   const double mg = 1e-3 * kG0_mps2;
   const OrUndefined<Angle> azimuth = azimuth_from(s, survey.north);
   const StationChecks& c = s.checks;
@@ -56,6 +58,10 @@ void append_station(std::string& out, const Survey& survey, const SurveyStation&
                    number(point->east_m, 2), number(point->dogleg_deg_per_30m, 2));
   else
     out += ",,,,";
+  if (covariance != nullptr)
+    for (const std::size_t k : {0U, 4U, 8U}) out += number(std::sqrt((*covariance)[k]), 3) + ",";
+  else
+    out += ",,,";
   out += to_string(survey.north);
   out += '\n';
 }
@@ -67,7 +73,8 @@ std::string survey_csv(const Survey& survey) {
   std::size_t next = 0;
   for (std::size_t k = 0; k < survey.stations.size(); ++k) {
     const bool on_path = survey.path && next < survey.on_path.size() && survey.on_path[next] == k;
-    append_station(out, survey, survey.stations[k], on_path ? &(*survey.path)[next] : nullptr);
+    append_station(out, survey, survey.stations[k], on_path ? &(*survey.path)[next] : nullptr,
+                   on_path ? &survey.position_covariance[next] : nullptr);
     if (on_path) ++next;
   }
   return out;

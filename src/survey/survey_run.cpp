@@ -56,6 +56,8 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
              {},
              {},
              {},
+             {},
+             {},
              {}};
   ErrorTestSettings tests;
   tests.tool = settings.station.tool;
@@ -67,18 +69,30 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
   if (settings.correct_axial) out.axial = estimate_axial_interference(stations, settings.station.tool);
   const bool correct = out.axial && out.axial->has_value();
   std::vector<PathStation> path;
+  std::vector<PathStationErrors> errors;
+  std::vector<Measurement> measured;
   for (std::size_t k = 0; k < stations.size(); ++k) {
     const ReferencedStation& at = stations[k];
+    measured.push_back(at.measured);
     out.stations.push_back(correct
                                ? judge_corrected(corrected(at.measured, **out.axial), at.reference, settings.station)
                                : judge_station(at.measured, at.reference, settings.station));
     if (const std::optional<PathStation> on = path_station(out.stations.back(), out.north)) {
       path.push_back(*on);
+      errors.push_back(path_errors(out.stations.back(), out.north));
       out.on_path.push_back(k);
     }
   }
+  out.saturated = saturated_channels(measured, out.stations);
   out.path = minimum_curvature(path);
-  if (!out.path) out.on_path.clear();
+  if (!out.path) {
+    out.on_path.clear();
+    return out;
+  }
+  const double declination =
+      out.north == North::magnetic ? 0.0 : stations.front().reference.field.declination_rad_sigma.common;
+  out.position_covariance = position_covariances(
+      errors, correct ? (*out.axial)->covariance : stated_covariance(settings.station.tool), declination);
   return out;
 }
 

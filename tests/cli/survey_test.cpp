@@ -29,6 +29,7 @@ struct Hole {
   double interference_nt = 0.0;
   bool exchanged = false;
   double unit_nt = 1.0;
+  double full_scale_nt = 1e9;
   std::string header = "md_m,gx_mps2,gy_mps2,gz_mps2,bx_nT,by_nT,bz_nT\n";
 
   std::string csv() const {
@@ -39,6 +40,7 @@ struct Hole {
       const double high = bn * std::cos(i) * std::cos(a) - bd * std::sin(i), right = bn * std::sin(a);
       double b[3] = {high * std::sin(t) + right * std::cos(t), high * std::cos(t) - right * std::sin(t),
                      bn * std::sin(i) * std::cos(a) + bd * std::cos(i) + interference_nt};
+      for (double& component : b) component = std::fmax(-full_scale_nt, std::fmin(component, full_scale_nt));
       if (exchanged) std::swap(b[0], b[1]);
       char line[200];
       std::snprintf(line, sizeof line, "%.1f,%.7f,%.7f,%.7f,%.6f,%.6f,%.6f\n", 1500.0 + 30.0 * k,
@@ -152,6 +154,69 @@ TEST(SurveyCommand, RefusesUnitsAndAxesThatCannotBe) {
   EXPECT_TRUE(says(outcome.err, {"x and y of one triad are exchanged", "rename the columns"}));
 }
 
+// Verifies: REQ-234
+TEST(SurveyCommand, AtAPoleHasNoTrueNorthAndSaysSo) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  for (const char* place : {"90, 0", "-90, 120"}) {
+    const Outcome outcome = run(where, {"survey", "run.csv", "--place", place, "--date", "2026-03-31"});
+    EXPECT_TRUE(says(outcome.out,
+                     {"Declination: not known; azimuths are magnetic",
+                      "Declination: at a pole of rotation there is no true north", "azimuths from magnetic north"}));
+    const Outcome refused =
+        run(where, {"survey", "run.csv", "--place", place, "--date", "2026-03-31", "--north", "true"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(
+        says(refused.err, {"--north", "there is no declination", "at a pole of rotation there is no true north"}));
+  }
+  const Outcome weak = run(where, {"survey", "run.csv", "--place", "86.0, 140", "--date", "2026-03-31"});
+  EXPECT_TRUE(says(weak.out, {"Declination: blackout zone: the horizontal field is", "too weak to rely on"}));
+}
+
+TEST(SurveyCommand, OfAVerticalToolPrintsNoAzimuthAndSaysWhy) {
+  const Desk where;
+  const std::string whole = Hole{}.csv();
+  const std::size_t first = whole.find('\n') + 1;
+  where.put("run.csv", whole.substr(0, whole.find('\n', first) + 1));  // one station, vertical
+  const Outcome outcome = run(where, stated({"--csv", "out.csv", "--report", "page.html"}));
+  EXPECT_TRUE(
+      says(outcome.out, {"1500.00    0.00       -", "accepted (V)", "Flags: V too near vertical for an azimuth"}));
+  EXPECT_TRUE(says(where.text("out.csv"), {"\n1500.00,0.00,,,,,"}));
+  EXPECT_TRUE(says(where.text("page.html"), {"azimuth</td>", "of vertical"}));
+}
+
+// Verifies: REQ-232
+TEST(SurveyCommand, WithoutADeclinationNamesMagneticNorthEverywhere) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const std::vector<std::string> magnetic{"survey", "run.csv", "--gravity", "9.81912 m/s^2", "--field",  "51000 nT",
+                                          "--dip",  "73 deg",  "--csv",     "out.csv",       "--report", "page.html"};
+  const Outcome outcome = run(where, magnetic);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, {"Declination: not known; azimuths are magnetic", "azimuths from magnetic north",
+                                 "minimum curvature from magnetic north"}));
+  EXPECT_TRUE(says(where.text("out.csv"), {"2100.00,80.00,120.00,,", ",magnetic\n"}));
+  EXPECT_TRUE(
+      says(where.text("page.html"), {"magnetic north", "every azimuth of this page is magnetic", "azi magnetic"}));
+  std::vector<std::string> json = magnetic;
+  json.push_back("--json");
+  const nlohmann::json found = survey_json_of(run(where, json));
+  EXPECT_EQ(found["north"], "magnetic");
+  EXPECT_TRUE(found["stations"][20]["azimuth_true"]["deg"].is_null());
+  EXPECT_EQ(found["stations"][20]["azimuth_true"]["why"], "the reference states no declination");
+}
+
+TEST(SurveyCommand, TellsAMagnetometerAtTheEndOfItsRange) {
+  const Desk where;
+  Hole hole;
+  hole.full_scale_nt = 40000.0;
+  where.put("run.csv", hole.csv());
+  const Outcome outcome = run(where, stated({"--report", "page.html"}));
+  EXPECT_TRUE(says(outcome.out, {"inclination only (B", "bz reads 40000 nT at", "saturated or stuck"}));
+  EXPECT_TRUE(says(where.text("page.html"), {"bz reads 40000 nT at", "saturated or stuck"}));
+  EXPECT_FALSE(says(run(where, stated({"--json"})).out, {"\"saturated\": []"}));
+}
+
 TEST(SurveyCommand, SaysWhatIsMissing) {
   const Desk where;
   where.put("run.csv", Hole{}.csv());
@@ -181,6 +246,22 @@ TEST(SurveyCommand, SaysWhatIsMissing) {
     EXPECT_TRUE(says(outcome.err, words));
     EXPECT_EQ(outcome.out, "");
   }
+}
+
+TEST(SurveyCommand, WritesThePageWithTheCommandThatMakesItAgain) {
+  const Desk where;
+  where.put("run.csv", Hole{}.csv());
+  const Outcome outcome =
+      run(where, stated({"--noise-field", "30 nT", "--false-alarm", "0.01", "--report", "page.html"}));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string page = where.text("page.html");
+  EXPECT_TRUE(says(page, {"Survey: run.csv", "21 of 21 stations accepted", "azi true, deg", "1500.00", "2100.00",
+                          "run.csv", "plumb survey run.csv --gravity &apos;9.81912 m/s^2&apos; --field",
+                          "--noise-field", "--report page.html --false-alarm 0.01"}));
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  EXPECT_EQ(page.find("--risk"), std::string::npos);
+  EXPECT_EQ(run(where, stated({"--report", "run.csv"})).code, 2);
+  EXPECT_EQ(run(where, stated({"--report", "no/such/place.html"})).code, 1);
 }
 
 TEST(SurveyCommand, OfAToolUpsideDownJudgesNothing) {

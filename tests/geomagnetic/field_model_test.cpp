@@ -190,11 +190,12 @@ RC_GTEST_PROP(FieldModelLaw, HasNeitherDivergenceNorCurl, ()) {
     const auto a = field_there(ahead, year), b = field_there(behind, year);
     for (std::size_t k = 0; k < 3; ++k) slope[k][along] = (a[k] - b[k]) / (2.0 * step_m);
   }
-  // A field of 50 000 nT changes by 0.02 nT a metre; differences of 2 km err by 1e-7 of that.
-  RC_ASSERT(std::fabs(slope[0][0] + slope[1][1] + slope[2][2]) < 2e-8);
-  RC_ASSERT(std::fabs(slope[0][1] - slope[1][0]) < 2e-8);
-  RC_ASSERT(std::fabs(slope[0][2] - slope[2][0]) < 2e-8);
-  RC_ASSERT(std::fabs(slope[1][2] - slope[2][1]) < 2e-8);
+  // A field of 50 000 nT changes by 0.02 nT a metre. Of degree n, differences over h = 2 km to either side err by
+  // (h n / 6371 km)^2 / 6 of their part: 2.4e-6 at degree 12.
+  RC_ASSERT(std::fabs(slope[0][0] + slope[1][1] + slope[2][2]) < 1e-7);
+  RC_ASSERT(std::fabs(slope[0][1] - slope[1][0]) < 1e-7);
+  RC_ASSERT(std::fabs(slope[0][2] - slope[2][0]) < 1e-7);
+  RC_ASSERT(std::fabs(slope[1][2] - slope[2][1]) < 1e-7);
 }
 
 RC_GTEST_PROP(FieldModelLaw, RatesAreThoseOfAYear, ()) {
@@ -257,6 +258,7 @@ TEST(FieldModel, NamesTheZonesOfAWeakHorizontalField) {
   EXPECT_EQ(caution->zone == FieldZone::caution, caution->value.horizontal_tesla * kNt < 6000.0);
 }
 
+// Negative: REQ-234
 TEST(FieldModel, RefusesWhatItDoesNotHoldFor) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const Place home{60.0, 2.0, 0.0};

@@ -1,4 +1,4 @@
-"""browser.py TOOL SOURCE [SHOTS]: the pages of plumb verify and of plumb monitor --report in a browser: no message on the console,
+"""browser.py TOOL SOURCE [SHOTS]: the pages of plumb verify, plumb monitor --report and plumb survey --report in a browser: no message on the console,
 no request but for the page itself, every link leads somewhere, every chart is to be seen, nothing wider than the window, no table
 cut on paper. With SHOTS, screenshots go into that directory: light, dark, phone, and the page as PDF."""
 
@@ -130,12 +130,23 @@ def health_page(tool, source, folder):
     return pathlib.Path(folder, "health.html")
 
 
+def survey_page(tool, source, folder):
+    """Of the stations of docs/survey.md, two of which are spoilt."""
+    text = (pathlib.Path(source) / "docs/survey.md").read_text()
+    pathlib.Path(folder, "run4.csv").write_text(text.split("<!-- file: run4.csv -->\n```csv\n")[1].split("```")[0])
+    command = ["survey", "run4.csv", "--place", "60.40, 2.10", "--date", "2026-03-31", "--report", "survey.html"]
+    done = subprocess.run([tool, *command], capture_output=True, text=True, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return pathlib.Path(folder, "survey.html")
+
+
 def main(tool, source, shots=None):
     with tempfile.TemporaryDirectory() as folder:
         browser = open_browser()
         try:
             check_page(browser, verification_page(tool, source, folder), 6, shots, "")
             check_page(browser, health_page(tool, source, folder), 2, shots, "health-")
+            check_page(browser, survey_page(tool, source, folder), 2, shots, "survey-")
         finally:
             browser.quit()
     print("the pages are sound")

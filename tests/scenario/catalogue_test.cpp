@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -145,15 +146,45 @@ TEST(Course, JudgeFindsEachThingThatIsNotAsExpected) {
   EXPECT_NE(judge(with([](auto& r) { r.worst_tilt_rad = 0.02; }), outcome), "");
 }
 
-/// PLUMB_WRITE_PAGES=1 renews the page.
-TEST(Catalogue, ThePageIsTheTable) {
-  const std::string path = std::string(PLUMB_SOURCE_DIR) + "/docs/fault-catalogue.md";
-  const char* renew = std::getenv("PLUMB_WRITE_PAGES");
-  if (renew != nullptr && *renew == '1') std::ofstream(path) << catalogue_page();
+/// What is written by hand below the table.
+constexpr const char* kByHand = "\n## Magnetometers\n";
+
+std::string text_of(const std::string& path) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), catalogue_page()) << "renew it: PLUMB_WRITE_PAGES=1 and this test once more";
+  return text.str();
+}
+
+/// PLUMB_WRITE_PAGES=1 renews the page.
+TEST(Catalogue, ThePageIsTheTable) {
+  const std::string path = std::string(PLUMB_SOURCE_DIR) + "/docs/fault-catalogue.md";
+  const std::string whole = text_of(path);
+  const std::size_t by_hand = whole.find(kByHand);
+  ASSERT_NE(by_hand, std::string::npos);
+  const char* renew = std::getenv("PLUMB_WRITE_PAGES");
+  if (renew != nullptr && *renew == '1') std::ofstream(path) << catalogue_page() << whole.substr(by_hand);
+  const std::string now = text_of(path);
+  EXPECT_EQ(now.substr(0, now.find(kByHand)), catalogue_page())
+      << "renew it: PLUMB_WRITE_PAGES=1 and this test once more";
+}
+
+/// Every test that the rows of magnetometers and gyros point to exists.
+TEST(Catalogue, RowsByHandNameTestsThatExist) {
+  const std::string page = text_of(std::string(PLUMB_SOURCE_DIR) + "/docs/fault-catalogue.md");
+  const std::string inventory = "\n" + text_of(std::string(PLUMB_SOURCE_DIR) + "/tests/inventory.txt");
+  std::istringstream lines(page.substr(page.find(kByHand)));
+  const std::regex name("`([A-Z][A-Za-z]+\\.[A-Z][A-Za-z]+)`");
+  int rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool row = line.rfind("| M", 0) == 0 || line.rfind("| G", 0) == 0;
+    const auto first = std::sregex_iterator(line.begin(), line.end(), name), none = std::sregex_iterator();
+    EXPECT_TRUE(!row || first != none) << line;
+    for (auto found = first; found != none; ++found)
+      EXPECT_NE(inventory.find("\n" + (*found)[1].str() + "\n"), std::string::npos) << (*found)[1].str();
+    rows += row ? 1 : 0;
+  }
+  EXPECT_EQ(rows, 17);
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ RC_GTEST_PROP(SurveyAttitudeLaw, IsTheAttitudeOfTheTool, ()) {
   RC_ASSERT(a.azimuth->angle.rad >= 0.0 && a.azimuth->angle.rad < 2.0 * kPi);
 }
 
+// Verifies: REQ-231
 TEST(SurveyAttitude, OfAVerticalToolIsItsMagneticToolface) {
   for (const double turn_deg : {0.0, 30.0, 200.0, 359.0}) {
     const Attitude a = attitude_of(station_of({0.0, rad_from_deg(turn_deg), rad_from_deg(20.0)}, World{}),
@@ -62,6 +63,7 @@ TEST(SurveyAttitude, OfAVerticalToolIsItsMagneticToolface) {
   }
 }
 
+// Negative: REQ-231
 RC_GTEST_PROP(SurveyAttitudeLaw, NearVerticalThereIsNoAzimuth, ()) {
   const double limit = 5.0 * 0.004 / 9.81, tilt = limit * *rc::gen::inRange(0, 2000) / 1000.0;
   RC_PRE(std::fabs(tilt - limit) > 1e-9);
@@ -190,6 +192,7 @@ TEST(SurveyAttitude, BoundsHoldBiasesAndTheRisk) {
   EXPECT_EQ(protection_level_rad({0.0, 10.0, 0.0}, 1e-7), kPi);
 }
 
+// Negative: REQ-232
 TEST(SurveyAttitude, NorthsAreTypesOfTheirOwn) {
   const Reference reference = reference_of(World{});
   const MagneticAzimuth magnetic{{rad_from_deg(2.0), rad_from_deg(0.3), 0.0}};

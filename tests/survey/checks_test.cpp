@@ -20,6 +20,7 @@ using namespace simulated_survey;
 
 const Truth kHole{rad_from_deg(60.0), rad_from_deg(40.0), rad_from_deg(100.0)};
 
+// Verifies: REQ-230
 TEST(SurveyChecks, AGoodStationHasEveryAzimuth) {
   StationSettings settings;
   settings.convergence = {true, rad_from_deg(1.5)};
@@ -32,6 +33,7 @@ TEST(SurveyChecks, AGoodStationHasEveryAzimuth) {
   EXPECT_NEAR(deg_from_rad(s.grid_azimuth->angle.rad), 34.5, 1e-9);
 }
 
+// Negative: REQ-230
 TEST(SurveyChecks, AFieldThatIsOffLeavesTheInclination) {
   Measurement m = station_of(kHole, World{});
   m.field_tesla[2] += 3e-6;
@@ -53,6 +55,7 @@ TEST(SurveyChecks, AFieldThatIsTurnedFailsByItsDipAlone) {
   EXPECT_EQ(s.status, StationStatus::inclination_only);
 }
 
+// Negative: REQ-230
 TEST(SurveyChecks, GravityThatIsOffLeavesNothing) {
   Measurement m = station_of(kHole, World{});
   m.gravity_mps2[0] += 0.1;
@@ -64,6 +67,7 @@ TEST(SurveyChecks, GravityThatIsOffLeavesNothing) {
   EXPECT_EQ(s.grid_azimuth.error().why, NoAngle::gravity_failed);
 }
 
+// Negative: REQ-233
 TEST(SurveyChecks, LimitsAreThoseOfTheUncertainties) {
   StationSettings settings;
   settings.tool = {};
@@ -98,6 +102,7 @@ TEST(SurveyChecks, FixedLimitsAreTheUsualNumbers) {
   EXPECT_EQ(judge_station(station_of(kHole, off), reference_of(World{}), settings).flags(), "GBD");
 }
 
+// Verifies: REQ-233
 TEST(SurveyChecks, FalseAlarmsAreAsRareAsStated) {
   // Errors drawn as they are stated: of 20 000 stations a tenth fails each check, within four sigma of counting.
   std::mt19937_64 generator(20260331);

@@ -74,6 +74,7 @@ TEST(MultiStation, FindsTheInterferenceOfTheDrillString) {
   }
 }
 
+// Negative: REQ-236
 TEST(MultiStation, DoesNotTakeAnErrorOfTheReferenceForInterference) {
   // The field is 3 sigma from the reference, in length and in dip: the estimate stays within its own sigma of nothing.
   ToolRun run;
@@ -85,6 +86,7 @@ TEST(MultiStation, DoesNotTakeAnErrorOfTheReferenceForInterference) {
   EXPECT_GT(found->field_offset_tesla, 200e-9);
 }
 
+// Negative: REQ-236
 TEST(MultiStation, RefusesInterferenceWhereTheHoleDoesNotTurn) {
   // A tangent: one inclination, one azimuth, however many stations and toolfaces.
   ToolRun run;
@@ -119,6 +121,7 @@ TEST(MultiStation, FindsSixBiasesAtScatteredAttitudes) {
   }
 }
 
+// Verifies: REQ-236
 TEST(MultiStation, ErrorsAreAsLargeAsStated) {
   // 300 tools with errors drawn as stated, references too: squares of value over sigma, within four sigma of counting.
   constexpr int kTools = 300;
@@ -242,6 +245,7 @@ TEST(MultiStation, CorrectionTakesTheErrorOffTheAzimuth) {
   EXPECT_EQ(after.measured.random, last.measured.random);
 }
 
+// Verifies: REQ-236
 RC_GTEST_PROP(MultiStationLaw, WithoutNoiseTheErrorsComeBack, ()) {
   ToolRun run;
   run.noisy = false;
@@ -298,6 +302,22 @@ TEST(ErrorTests, NameTheKindAndTheStation) {
   run.world.dip_rad += rad_from_deg(2.0);
   EXPECT_FALSE(error_tests(run.of(build_up(70.0, 12)), {})->dip.mean_passed());
   EXPECT_TRUE(error_tests(run.of(build_up(70.0, 12)), {})->dip.one_passed());
+}
+
+/// A reading of 1e12 m/s^2: its shared error is so much larger than its random one that the inverse rounds to nothing.
+TEST(ErrorTests, OfAnAbsurdStationAreFiniteAndNameIt) {
+  std::vector<ReferencedStation> stations;
+  for (int k = 0; k < 6; ++k) {
+    Measurement m = station_of({0.1 + 0.2 * k, 1.0, 1.7 * k}, World{}, 30.0 * k);
+    m.random = independent_covariance(1e-3, 20e-9);
+    stations.push_back({m, reference_of(World{})});
+  }
+  stations[3].measured.gravity_mps2[1] = 7.8e11;
+  const auto tests = error_tests(stations, {});
+  ASSERT_TRUE(tests.has_value());
+  for (const double w : tests->gravity.normalised) EXPECT_TRUE(std::isfinite(w));
+  EXPECT_TRUE(std::isfinite(tests->gravity.mean + tests->gravity.mean_limit));
+  EXPECT_FALSE(tests->gravity.passed());
 }
 
 TEST(ErrorTests, RefuseWhatCannotBeTested) {

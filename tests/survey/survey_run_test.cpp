@@ -154,6 +154,7 @@ TEST(SurveyCsv, WritesNorthAsZero) {
   EXPECT_NE(survey_csv(run_survey(stations, {})).find(",60.00,0.00,"), std::string::npos);
 }
 
+// Verifies: REQ-235
 TEST(SurveyWiring, TellsExchangedAxesOfOneTriad) {
   const char* const said[] = {"x and y of one triad", "x and z of one triad", "y and z of one triad"};
   const std::pair<std::size_t, std::size_t> swaps[] = {{0, 1}, {0, 2}, {1, 2}};
@@ -178,6 +179,7 @@ TEST(SurveyWiring, TellsATurnedSign) {
   EXPECT_NE(study_wiring(stations, iscwsa_tool()).text().find("x = x, y = -y, z = z"), std::string::npos);
 }
 
+// Negative: REQ-235
 TEST(SurveyWiring, SaysNothingOfAGoodSurveyNorOfOneThatCannotTell) {
   EXPECT_FALSE(study_wiring(hole(), iscwsa_tool()).swapped);
   EXPECT_EQ(study_wiring(hole(), iscwsa_tool()).text(), "");
@@ -189,6 +191,35 @@ TEST(SurveyWiring, SaysNothingOfAGoodSurveyNorOfOneThatCannotTell) {
   std::vector<ReferencedStation> off = hole();  // another field altogether
   for (ReferencedStation& s : off) s.measured.field_tesla = {30e-6, 1e-6, 5e-6};
   EXPECT_FALSE(study_wiring(off, iscwsa_tool()).swapped);
+}
+
+// Verifies: REQ-237
+TEST(SurveySaturation, TellsAChannelAtTheEndOfItsRange) {
+  std::vector<ReferencedStation> stations = hole();
+  for (ReferencedStation& s : stations) s.measured.field_tesla[2] = std::fmin(s.measured.field_tesla[2], 40e-6);
+  const Survey s = run_survey(stations, {});
+  ASSERT_EQ(s.saturated.size(), 1U);
+  EXPECT_EQ(s.saturated[0].component, 5U);
+  EXPECT_EQ(s.saturated[0].text().substr(0, 22), "bz reads 40000 nT at 1") << s.saturated[0].text();
+  EXPECT_NE(s.saturated[0].text().find("saturated or stuck"), std::string::npos);
+}
+
+TEST(SurveySaturation, TellsAChannelThatIsStuck) {
+  std::vector<ReferencedStation> stations = hole();
+  for (ReferencedStation& s : stations) s.measured.gravity_mps2[0] = -3.25;
+  const Survey s = run_survey(stations, {});
+  for (const SurveyStation& one : s.stations) EXPECT_EQ(one.status, StationStatus::rejected);
+  ASSERT_EQ(s.saturated.size(), 1U);
+  EXPECT_NE(s.saturated[0].text().find("gx reads -3.2500 m/s^2 at 20 stations"), std::string::npos);
+}
+
+// Negative: REQ-237
+TEST(SurveySaturation, AccusesNoReadingThatIsEqualByRoundingOrOfAGoodStation) {
+  std::vector<ReferencedStation> stations = hole();
+  for (ReferencedStation& s : stations) s.measured.field_tesla[2] = 1e-7 * std::round(s.measured.field_tesla[2] / 1e-7);
+  EXPECT_TRUE(run_survey(stations, {}).saturated.empty());  // three vertical ones read the same
+  stations[4].measured.field_tesla = scaled(stations[4].measured.field_tesla, 1.5);
+  EXPECT_TRUE(run_survey(stations, {}).saturated.empty());  // one that fails is no range
 }
 
 io::CsvColumns table(std::vector<std::string> names, const std::vector<std::vector<double>>& rows) {
@@ -228,6 +259,7 @@ void expect_refused(const io::CsvColumns& columns, const char* what, const char*
   EXPECT_NE(file.error().remedy.find(remedy), std::string::npos) << file.error().text();
 }
 
+// Verifies: REQ-235
 TEST(StationFile, RefusesUnitsThatCannotBe) {
   const std::vector<double> row{100, 0.6, 0.0, 0.8, 10, 20, 40};
   expect_refused(table({"md_m", "gx_g", "gy_g", "gz_g", "bx_G", "by_G", "bz_G"}, {row}), "a field of 4583 uT",
@@ -300,7 +332,7 @@ RC_GTEST_PROP(StationFileLaw, AnyNumbersAreASurveyOrAnError, ()) {
     if (one.true_azimuth) RC_ASSERT(std::isfinite(one.true_azimuth->angle.rad + one.true_azimuth->angle.sigma_rad));
   }
   std::istringstream lines(survey_csv(s));
-  for (std::string line; std::getline(lines, line);) RC_ASSERT(cells(line).size() == 24U);
+  for (std::string line; std::getline(lines, line);) RC_ASSERT(cells(line).size() == 27U);
 }
 
 }  // namespace

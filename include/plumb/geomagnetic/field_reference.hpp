@@ -52,6 +52,7 @@ struct FieldReference {
   bool declination_known = false;  ///< without it only magnetic azimuths are to be had
   double declination_rad = 0.0;
   Sigma declination_rad_sigma;
+  std::string declination_note;  ///< why there is none, or why not to trust it: a pole, a weak horizontal field
 };
 
 FieldReference reference_of(const EarthField& field, const ErrorModel& errors);

@@ -17,6 +17,7 @@ namespace survey {
 ///   Flags                                    SurveyStation::flags
 ///   sInc_deg, sAzi_deg, PLInc_deg, PLAzi_deg 1 sigma and protection level; the azimuth is that of `north`
 ///   TVD_m, North_m, East_m, DLS_deg_per_30m  empty where the station is not on the path
+///   sNorth_m, sEast_m, sTVD_m                1 sigma of the position (position_covariance.hpp)
 ///   AziNorth                                 which north sAzi, PLAzi and the positions are of
 std::string survey_csv(const Survey& survey);
 

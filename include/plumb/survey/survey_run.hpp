@@ -7,6 +7,8 @@
 #include "plumb/survey/error_tests.hpp"
 #include "plumb/survey/multi_station.hpp"
 #include "plumb/survey/path.hpp"
+#include "plumb/survey/position_covariance.hpp"
+#include "plumb/survey/saturation.hpp"
 #include "plumb/survey/wiring.hpp"
 
 namespace plumb {
@@ -30,7 +32,9 @@ struct Survey {
   std::optional<tl::expected<Estimate, EstimateRefusal>> axial;  ///< where asked for; `tests` are those of the readings
   /// Positions of the stations that were accepted; the others are left out.
   io::FileExpected<std::vector<PathPoint>> path;
-  std::vector<std::size_t> on_path;  ///< number of the station of each position
+  std::vector<std::size_t> on_path;                     ///< number of the station of each position
+  std::vector<PositionCovariance> position_covariance;  ///< of each position
+  std::vector<SaturatedChannel> saturated;
 };
 
 /// Stations in the order of their depth.
