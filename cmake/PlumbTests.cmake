@@ -171,7 +171,7 @@ if(PLUMB_BUILD_HOST)
     LONGER BadLog.* BadRecording.* Calibrate*.* CalibrationStudy.* Convert.* Demo.* Drill.* FlightMotion.* Geometry*.* GravityErrorStudy.*
       InjectCatalogue.* *Law.* *Laws.* MonitorSnapshot.* MotionCommand.* OneAttitudeStudy.* PaperConvergence.* PaperExtremes.* RollGroups.* Table2Study.* ToolOn*.* Truth.*
       Verification*.* WrongColumns.* XsensRecording.*
-    LIBRARIES plumb_testing plumb_render plumb_findings plumb_review plumb_survey plumb_logs plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
+    LIBRARIES plumb_testing plumb_render plumb_commission plumb_findings plumb_review plumb_survey plumb_logs plumb_io plumb_study plumb_paper plumb_scenario plumb_24)
   if(TARGET plumb_host_tests)  # flights with a monitor of motion on board, as plumb_motion_rates plays them
     target_sources(plumb_host_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/motion/flight_case.cpp")
     target_include_directories(plumb_host_tests PRIVATE "${PROJECT_SOURCE_DIR}/bench/motion")
@@ -185,7 +185,7 @@ endif()
 # A program of its own: commissioning needs little of the host.
 if(TARGET plumb_commission)
   plumb_test_executable(plumb_commission_tests LABEL host ROOMS commission LIBRARIES plumb_commission plumb_scenario plumb_24
-    LONGER ArrayCommission.* BoardMotion.* MotionCommission.* QuadrotorMotion.*)
+    LONGER ArrayCommission.* BoardMotion.* Gyro*Law.* MotionCommission.* QuadrotorMotion.*)
 endif()
 
 # Simulations by the thousand.

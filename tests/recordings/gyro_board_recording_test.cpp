@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "plumb/commission/gyro_fit.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/motion/rate_monitor.hpp"
 #include "support/recording.hpp"
@@ -17,11 +18,12 @@ namespace gyro_board_recording_test {
 namespace {
 
 using namespace plumb;
+using namespace plumb::commission;
 using plumb_test::Recording;
 
 constexpr int kChips = 8, kAxes = 3 * kChips, kGroup = 12;
 constexpr double kCounts_per_degps = 16.4, kClipped_cnt = 32700.0, kPeriod_s = 0.016;
-constexpr std::size_t kBlock = 32;
+constexpr std::size_t kRest = 500;  // 8 s, before the tumbling begins
 using Rates = Eigen::Matrix<double, kAxes, 1>;
 using Axes = Eigen::Matrix<double, kAxes, 3>;
 
@@ -57,74 +59,51 @@ Tumbling tumbling_of(const Recording& recording) {
     out.clipped.push_back(clipped);
     out.force_mps2.push_back(force);
   }
-  constexpr std::size_t kRest = 500;  // 8 s, before the tumbling begins
   Rates bias = Rates::Zero();
   for (std::size_t k = 0; k < kRest; ++k) bias += out.rate_radps[k] / kRest;
   for (Rates& rate : out.rate_radps) rate -= bias;
   return out;
 }
 
-bool any(const std::array<bool, kAxes>& clipped) {
-  for (const bool one : clipped) {
-    if (one) return true;
-  }
-  return false;
-}
-
 /// Each chip's nominal turn against the board.
-Eigen::Matrix3d nominal(int chip) {
+Eigen::Matrix3d nominal_turn(int chip) {
   Eigen::Matrix3d back;
   back << 0, -1, 0, -1, 0, 0, 0, 0, -1;
   return chip % 2 == 1 ? back : Eigen::Matrix3d::Identity().eval();
 }
 
-/// The axes of all gyros, scale included, against the mean of the chips: relative alignment, a 3 x 3 matrix a chip.
-Axes aligned(const Tumbling& run) {
-  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-  Axes product = Axes::Zero();
+GyroLog log_of(const Tumbling& run) {
+  GyroLog out;
+  out.period_s = kPeriod_s;
+  out.rate_radps.resize(kAxes);
   for (std::size_t k = 0; k < run.rate_radps.size(); ++k) {
-    if (any(run.clipped[k])) continue;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (int chip = 0; chip < kChips; ++chip)
-      mean += nominal(chip).transpose() * run.rate_radps[k].segment<3>(3 * chip) / kChips;
-    square += mean * mean.transpose();
-    product += run.rate_radps[k] * mean.transpose();
+    for (std::size_t i = 0; i < kAxes; ++i)
+      out.rate_radps[i].push_back(run.clipped[k][i] ? std::nan("") : run.rate_radps[k][static_cast<Eigen::Index>(i)]);
+    out.at_rest.push_back(k < kRest);
   }
-  return product * square.inverse();
+  return out;
 }
 
-struct Residual {
-  double sample_degps = 0.0, block_degps = 0.0;  ///< rms above 1000 deg/s, of samples and of means of kBlock
-};
-
-Residual residual_of(const Tumbling& run, const Axes& axes) {
-  const Eigen::Matrix<double, 3, kAxes> solve = (axes.transpose() * axes).inverse() * axes.transpose();
-  const double fast = rad_from_deg(1000.0);
-  double sample = 0.0, block = 0.0;
-  std::size_t samples = 0, blocks = 0;
-  for (std::size_t begin = 0; begin + kBlock <= run.rate_radps.size(); begin += kBlock) {
-    Rates mean = Rates::Zero();
-    double rate = 0.0;
-    bool whole = true;
-    for (std::size_t k = begin; k < begin + kBlock; ++k) {
-      if (any(run.clipped[k])) {
-        whole = false;
-        continue;
-      }
-      const Eigen::Vector3d w = solve * run.rate_radps[k];
-      const Rates rest = run.rate_radps[k] - axes * w;
-      mean += rest / kBlock;
-      rate += w.norm() / kBlock;
-      if (w.norm() < fast) continue;
-      sample += rest.squaredNorm() / kAxes;
-      ++samples;
-    }
-    if (!whole || rate < fast) continue;
-    block += mean.squaredNorm() / kAxes;
-    ++blocks;
+/// The axes of all gyros, scale included, against each other. `delay`: of each axis, too.
+GyroFit fit_of(const Tumbling& run, bool delay) {
+  std::vector<GyroNominal> nominal;
+  for (int k = 0; k < kAxes; ++k) {
+    const Eigen::Vector3d axis = nominal_turn(k / 3).row(k % 3);
+    nominal.push_back({{axis[0], axis[1], axis[2]}, rad_from_deg(0.1), 0.0});
   }
-  return {deg_from_rad(std::sqrt(sample / static_cast<double>(samples))),
-          deg_from_rad(std::sqrt(block / static_cast<double>(blocks)))};
+  GyroFitSettings settings;
+  settings.delay = delay;
+  auto fit = fit_gyros(log_of(run), nominal, settings);
+  EXPECT_TRUE(fit.has_value()) << fit.error();
+  return fit ? *fit : GyroFit{};
+}
+
+Axes aligned(const Tumbling& run) {
+  const GyroFit fit = fit_of(run, false);
+  Axes out = Axes::Zero();
+  for (std::size_t k = 0; k < fit.axis.size(); ++k)
+    out.row(static_cast<Eigen::Index>(k)) = Eigen::Map<const Eigen::RowVector3d>(fit.axis[k].row.data());
+  return out;
 }
 
 /// A monitor of four of the eight chips, each axis a unit of its own.
@@ -215,15 +194,27 @@ std::string name_of(int run) { return "carlsson_motion_" + std::to_string(run) +
 // 32 samples are within 2.5.
 TEST(GyroBoardRecording, ThePlainAlignmentHoldsOnOtherRuns) {
   PLUMB_RECORDING(first, name_of(1))
-  const Axes axes = aligned(tumbling_of(first));
-  for (const int number : {2, 3}) {
-    PLUMB_RECORDING(recording, name_of(number))
-    const Residual rest = residual_of(tumbling_of(recording), axes);
-    std::cout << "[ measured ] run " << number << ": rms " << rest.sample_degps << " deg/s a sample, "
-              << rest.block_degps << " in means of 32\n";
-    EXPECT_LT(rest.sample_degps, 12.0);
-    EXPECT_GT(rest.sample_degps, 5.0) << "clocks that differ show";
-    EXPECT_LT(rest.block_degps, 2.5);
+  const Tumbling tumbling = tumbling_of(first);
+  for (const bool delay : {false, true}) {
+    const GyroFit fit = fit_of(tumbling, delay);
+    double latest_s = 0.0, sigma = 0.0;
+    for (const FittedGyro& axis : fit.axis) {
+      latest_s = std::fmax(latest_s, std::fabs(axis.delay_s));
+      sigma = std::fmax(sigma, std::sqrt(axis.row_covariance[0]));
+    }
+    std::cout << "[ measured ] " << (delay ? "with" : "without") << " delays: at most " << 1e3 * latest_s
+              << " ms, rows to " << sigma << ", run 1: rms " << deg_from_rad(fit.residual.sample_radps)
+              << " deg/s a sample at any rate\n";
+    for (const int number : {2, 3}) {
+      PLUMB_RECORDING(recording, name_of(number))
+      const GyroResidual rest = gyro_residual(log_of(tumbling_of(recording)), fit, rad_from_deg(1000.0));
+      const double sample_degps = deg_from_rad(rest.sample_radps), block_degps = deg_from_rad(rest.block_radps);
+      std::cout << "[ measured ] run " << number << ": rms " << sample_degps << " deg/s a sample, " << block_degps
+                << " in means of 32\n";
+      EXPECT_LT(sample_degps, 12.0);
+      EXPECT_GT(sample_degps, 5.0) << "clocks that differ show";
+      EXPECT_LT(block_degps, 2.5);
+    }
   }
 }
 
