@@ -6,7 +6,7 @@
 using namespace plumb;
 int main() {
   const Datasheet sheet = scenario::paper_datasheet();  // four magnetometers, in units in which the field is g0 long
-  const survey::Reference place = {{}, {"", 2026, 50e-6, 1.2, {1e-7, 0}, {4e-3, 0}, false, 0, {}}};
+  const survey::Reference place = {{}, {"", 2026, 50e-6, 1.2, {1e-7, 0}, {4e-3, 0}, false, 0, {}, {}}};
   std::vector<Station> raw(40, {{}, {}, SensorSet::first(4), 25, 100});
   std::vector<survey::ReferencedStation> stations(40, {{0, {}, {}, survey::independent_covariance(1e-3, 2e-8)}, place});
   for (std::size_t k = 0; k < 40; ++k) {

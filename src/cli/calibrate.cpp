@@ -194,7 +194,7 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
                                  options.tag.date,
                                  options.json});
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
-  const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log.path}};
+  const std::vector<NamedFile> to_read = {{"--array", array_file_of(options.array)}, {"--log", options.log.path}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb calibrate", Serves::lengths);
   if (!array) return report(array.error());

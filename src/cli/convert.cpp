@@ -69,7 +69,7 @@ io::FileExpected<io::LogStatistics> convert(const ConvertOptions& options, const
 
 io::ExitCode run_convert(const ConvertOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
-  const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
+  const std::vector<NamedFile> to_read = {{"--array", array_file_of(options.array)}, {"--log", options.log}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb convert", Serves::all);
   if (!array) return report(array.error());
@@ -84,6 +84,7 @@ io::ExitCode run_convert(const ConvertOptions& options) {
     print_error(
         "plumb: warning: the log has no time column, so the rows after a skipped row now have earlier times.\n");
   }
+  print_error(columns_left_out(*array, options.out));
   if (!interrupted()) return io::ExitCode::done;
   print_error(fmt::format("plumb: interrupted; the rows up to t = {:.3f} s are written.\n", done->last_time_s));
   return io::ExitCode::other;

@@ -96,7 +96,7 @@ io::FileExpected<io::LogStatistics> copy(const InjectOptions& options, const io:
 
 io::ExitCode run_inject(const InjectOptions& options) {
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
-  const std::vector<NamedFile> to_read = {{"--array", options.array}, {"--log", options.log}};
+  const std::vector<NamedFile> to_read = {{"--array", array_file_of(options.array)}, {"--log", options.log}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   const io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb inject", Serves::all);
   if (!array) return report(array.error());
@@ -116,6 +116,7 @@ io::ExitCode run_inject(const InjectOptions& options) {
     for (const scenario::Fault& fault : faults) print(scenario::describe(fault, context) + "\n");
     print(fmt::format("written: {} ({})\n", options.out, count_text(done->rows, "row")));
   }
+  print_error(columns_left_out(*array, options.out));
   for (const int k : injector->without_effect()) {
     print_error(fmt::format(
         "plumb: --fault \"{}\" changed nothing: the log (t = {:.3f} to {:.3f} s) has no such time or station, or the "

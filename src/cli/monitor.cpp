@@ -10,6 +10,7 @@
 #include "monitor_outputs.hpp"
 #include "plumb/render/alignment_words.hpp"
 #include "plumb/render/calibration_notes.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/monitor_limits.hpp"
 #include "plumb/render/monitor_summary.hpp"
 #include "plumb/render/nothing_judged_words.hpp"
@@ -202,7 +203,7 @@ io::ExitCode tell_limits(const MonitorOptions& options, const io::ArrayFile& arr
                          double days) {
   const findings::MonitorLimits limits =
       findings::monitor_limits(calibrated, array.gravity, array.monitor, io::tolerance_mps2(array, days));
-  print_now(options.json ? render::limits_json(limits) : render::limits_text(limits));
+  print_now(options.json ? render::limits_json(limits, array.field) : render::limits_text(limits, array.field));
   return io::ExitCode::done;
 }
 
@@ -263,7 +264,7 @@ io::ExitCode monitor_array(const MonitorOptions& options, session::VerdictSink* 
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"--snapshot-in", options.snapshot_in}}))
     return report(*clash);
   to_write.push_back({"--snapshot-out", options.snapshot_out});
-  const std::vector<NamedFile> to_read = {{"--array", options.array},
+  const std::vector<NamedFile> to_read = {{"--array", array_file_of(options.array)},
                                           {"--calibration", options.calibration},
                                           {"--log", options.log.path},
                                           {"--roll-test", options.roll_test}};
@@ -284,7 +285,8 @@ io::ExitCode monitor_array(const MonitorOptions& options, session::VerdictSink* 
       render::exact_note(*calibration, options.calibration) + render::stated_note(*calibration, options.calibration) +
       render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
   if (array->monitor.mode == MonitorMode::plumb)  // the paper's method has no bound
-    print_error(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)));
+    print_error(render::in_field_words(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)),
+                                       array->field));
   const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);

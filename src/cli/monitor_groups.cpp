@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "plumb/io/calibration_file.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/group_report.hpp"
 #include "plumb/session/group_track.hpp"
@@ -58,17 +59,44 @@ io::FileExpected<std::vector<Wanted>> groups_of(const MonitorOptions& options, c
       if (before.name == one.name)
         return tl::unexpected<io::FileError>(wrong_group("\"" + one.name + "\" is given twice", "give it once"));
     }
+    if (!rate) {
+      const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(one.calibration, *one.array);
+      if (!calibration) return tl::unexpected<io::FileError>(calibration.error());
+    }
     out.push_back(std::move(one));
   }
   return out;
 }
 
+/// Two groups that would write the same file.
+std::optional<io::FileError> clash_of(const MonitorOptions& options, const std::vector<Wanted>& groups) {
+  std::vector<NamedFile> files;
+  const auto add = [&](const std::string& group) {
+    for (const auto& [option, path] : {std::pair<const char*, std::string>{"--events", options.events},
+                                       {"--verdicts", options.verdicts},
+                                       {"--motion", options.motion},
+                                       {"--inclination", options.inclination},
+                                       {"--report", options.report},
+                                       {"--report", health_data_path(options.report)}}) {
+      if (!path.empty()) files.push_back({option, group.empty() ? path : name_for_group(path, group)});
+    }
+  };
+  add("");
+  for (const Wanted& group : groups) add(group.name);
+  return overwritten(
+      files,
+      {{"--array", array_file_of(options.array)}, {"--calibration", options.calibration}, {"--log", options.log.path}});
+}
+
 std::optional<io::FileError> misuse(const MonitorOptions& o) {
-  if (o.log.path == "-")
+  std::error_code ignored;
+  const bool once = o.log.path == "-" || (std::filesystem::exists(o.log.path, ignored) &&
+                                          !std::filesystem::is_regular_file(o.log.path, ignored));
+  if (once)
     return io::FileError{"--group",
                          0,
                          "",
-                         "needs the log several times, and standard input can be read once",
+                         "needs the log several times, and standard input or a pipe can be read once",
                          "record the stream to a file and give it with --log",
                          io::ExitCode::usage};
   if (o.log.follow || o.limits || !o.roll_test.empty() || !o.snapshot_in.empty() || !o.snapshot_out.empty())
@@ -160,13 +188,16 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
   if (const std::optional<io::FileError> wrong = misuse(options)) return report(*wrong);
   const io::FileExpected<std::vector<Wanted>> groups = groups_of(options, *tool);
   if (!groups) return report(groups.error());
+  if (const std::optional<io::FileError> clash = clash_of(options, *groups)) return report(*clash);
   session::GroupTrack gravity;
   MonitorOptions own = options;
   own.groups.clear();
   io::ExitCode worst = monitor_array(own, &gravity);
+  if (worst == io::ExitCode::usage || worst == io::ExitCode::invalid_input || worst == io::ExitCode::other)
+    return worst;  // said already; what the groups would be held against is not there
   for (const Wanted& group : *groups) {
     if (interrupted()) return io::ExitCode::other;
-    if (!options.json) print_now(render::group_heading(*group.array));
+    print_now(options.json ? render::group_heading_json(*group.array) : render::group_heading(*group.array));
     if (group.array->field == io::FieldKind::rate) {
       worst = worse(worst, monitor_rates(options, group, gravity.points()));
       continue;

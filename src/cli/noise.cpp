@@ -142,7 +142,7 @@ io::ExitCode run_noise(const NoiseOptions& options) {
     return report(*clash);
   std::optional<io::ArrayFile> array;
   if (!options.array.empty()) {
-    io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb noise", Serves::all);
+    io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb noise", Serves::gravity);
     if (!file) return report(file.error());
     array = *std::move(file);
   }

@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "plumb/geomagnetic/field_reference.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
+
+std::string array_file_of(const std::string& path) {
+  const std::size_t mark = path.rfind('#');
+  return mark == std::string::npos || std::filesystem::exists(path) ? path : path.substr(0, mark);
+}
+
+std::string columns_left_out(const io::ArrayFile& array, const std::string& out) {
+  if (array.groups.empty() && array.group.empty()) return "";
+  return "plumb: note: " + out + " holds the columns of " +
+         (array.group.empty() ? "the accelerometers" : "group " + array.group) +
+         " alone; those of the tool's other groups are left out.\n";
+}
 
 io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* command, Serves serves) {
   io::FileExpected<io::ArrayFile> array = io::read_array_file(path, geomagnetic::lookup);
@@ -16,12 +30,13 @@ io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* 
                       (serves == Serves::lengths && field == io::FieldKind::magnetic);
   if (served) return array;
   const bool rate = field == io::FieldKind::rate;
-  return tl::unexpected<io::FileError>(io::FileError{
-      path, 0, "", fmt::format("{} does not serve a group of {}s", command, io::units_of(field).sensor),
-      serves == Serves::lengths && rate
-          ? "a rate has no length that a calibration could go by: plumb monitor watches gyros, plumb noise studies them"
-          : "name the array file alone, without #" + array->group + ", for its accelerometers",
-      io::ExitCode::usage});
+  return tl::unexpected<io::FileError>(
+      io::FileError{path, 0, "", fmt::format("{} does not serve a group of {}s", command, io::units_of(field).sensor),
+                    !rate || serves == Serves::gravity
+                        ? "name the array file alone, without #" + array->group + ", for its accelerometers"
+                        : "a rate has no length to calibrate by: plumb monitor --array " + array_file_of(path) +
+                              " --group " + array->group + " watches gyros beside the accelerometers",
+                    io::ExitCode::usage});
 }
 
 }  // namespace cli

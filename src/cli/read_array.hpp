@@ -16,6 +16,12 @@ enum class Serves : std::uint8_t {
   all,
 };
 
+/// "tool.toml" of "tool.toml#mag"; a file that has the sign in its name stays.
+std::string array_file_of(const std::string& path);
+
+/// A log that is written anew holds the columns of one group; empty where the tool has no other.
+std::string columns_left_out(const io::ArrayFile& array, const std::string& out);
+
 /// The file, with WMM2025 for magnetic groups that state a place and a date. Refuses a group that `command` does not
 /// serve.
 io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* command, Serves serves);

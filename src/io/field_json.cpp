@@ -63,20 +63,22 @@ Json of_magnetic(const Json& value) {  // NOLINT(misc-no-recursion) as deep as t
   return out;
 }
 
-/// The same keys, with lengths multiplied.
-Json stretched(const Json& value, double factor) {  // NOLINT(misc-no-recursion) as deep as the result
+/// The same keys. What a page shows in m/s^2, lengths of the vector and scales, is multiplied by `coarse`; what it
+/// shows in mg0 by `fine`.
+Json stretched(const Json& value, double fine, double coarse) {  // NOLINT(misc-no-recursion) as deep as the result
   if (!value.is_structured()) return value;
   Json out = value;
   for (auto item = out.begin(); item != out.end(); ++item) {
     double by = 0.0;
-    if (value.is_object()) {
+    if (value.is_object() && !item->is_object()) {
       const std::string& key = item.key();
-      by = ends_with(key, "_mps2_2")                                                            ? factor * factor
-           : ends_with(key, "_per_mps2")                                                        ? 1.0 / factor
-           : ends_with(key, "_mps2") || ends_with(key, "_mps2_per_h") || ends_with(key, "_mg0") ? factor
+      by = key == "g_mps2"                                                                      ? coarse
+           : ends_with(key, "_per_mps2")                                                        ? 1.0 / coarse
+           : ends_with(key, "_mps2_2")                                                          ? fine * fine
+           : ends_with(key, "_mps2") || ends_with(key, "_mps2_per_h") || ends_with(key, "_mg0") ? fine
                                                                                                 : 0.0;
     }
-    *item = by > 0.0 && !item->is_object() ? scaled_by(*item, by) : stretched(*item, factor);
+    *item = by > 0.0 ? scaled_by(*item, by) : stretched(*item, fine, coarse);
   }
   return out;
 }
@@ -95,7 +97,8 @@ std::string in_field_units(const std::string& line, FieldKind field) {
 
 Json with_fine_as_mg0(const Json& value, FieldKind field) {
   if (field == FieldKind::gravity) return value;
-  return stretched(value, units_of(field).fine_per_inside / units_of(FieldKind::gravity).fine_per_inside);
+  const FieldUnits &of = units_of(field), &gravity = units_of(FieldKind::gravity);
+  return stretched(value, of.fine_per_inside / gravity.fine_per_inside, of.coarse_per_inside);
 }
 
 }  // namespace io

@@ -35,6 +35,11 @@ std::string in_field_words(std::string text, io::FieldKind field) {
   for (const auto& [word, by] :
        {std::pair<std::string_view, std::string_view>{"stability 0.2 mg0", "stability 7.85 nT"},
         {"m/s^2 for mae", "units of 4 uT for mae"},
+        {"mg0 = 0.001 x 9.80665 m/s^2", "nT = 0.001 uT"},
+        {"[input]", "[[group]]"},
+        {"[monitor]", "[group.monitor]"},
+        {"hold the tool still at a known attitude, inclination",
+         "hold the tool still where the direction of the field in the tool is known, its angle from z"},
         {"mg0", units.fine},
         {"m/s^2", units.coarse},
         {"[gravity]", "[group.reference]"},

@@ -31,14 +31,25 @@ std::string group_heading(const io::ArrayFile& group) {
                      count_text(static_cast<std::size_t>(group.array.size()), io::units_of(group.field).sensor));
 }
 
+std::string group_heading_json(const io::ArrayFile& group) {
+  return io::object({{"group", io::object({{"name", group.group},
+                                           {"field", to_string(group.field)},
+                                           {"sensors", ids(group.array.all(), group.array)}})}})
+             .dump() +
+         "\n";
+}
+
 std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& group) {
   const SensorArray& array = group.array;
-  const SensorSet out_of_service = run.last.excluded | run.last.off_at_rest;
+  const SensorSet out_of_service = run.last.excluded | run.last.off_at_rest | run.silent;
   std::string out =
       fmt::format("log         {}, {} of them at rest, {}, {} skipped\n", count_text(run.samples, "sample"),
                   run.samples_at_rest, count_text(run.blocks, "block"), count_text(run.log.rows_bad, "bad row"));
   out += fmt::format("in service  {}\n", sensor_names(array.all() - out_of_service, array));
   out += fmt::format("excluded    {}\n", sensor_names(run.last.excluded, array));
+  if (!run.silent.empty())
+    out += fmt::format("silent      {}: no number in the last {:.3g} s of the log\n", sensor_names(run.silent, array),
+                       run.silent_s);
   if (!run.last.off_at_rest.empty())
     out += fmt::format("off at rest {}: out of service until a block at rest in which {} near zero again\n",
                        sensor_names(run.last.off_at_rest, array),
@@ -47,9 +58,10 @@ std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& grou
   if (!earlier.empty()) out += fmt::format("earlier     {} out of service for a time\n", sensor_names(earlier, array));
   if (run.turned_at_rest > 0)
     out += fmt::format(
-        "at rest     {}, gyros read a rate that parity blames on none of them: the tool turned while it was said to "
+        "at rest     {} (first t = {:.3f} s), gyros read a rate that parity blames on none of them: the tool turned "
+        "while it was said to "
         "stand still, or a fault is too small for parity\n",
-        count_text(static_cast<std::size_t>(run.turned_at_rest), "time"));
+        count_text(static_cast<std::size_t>(run.turned_at_rest), "time"), run.turned_at_rest_s);
   out +=
       run.bounded_blocks > 0
           ? fmt::format("rate        bound of the error {:.3g} deg/s on average, {:.3g} deg/s at most, in {} of {}\n",
@@ -71,6 +83,7 @@ std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& grou
                                              {"off_at_rest", ids(run.last.off_at_rest, array)},
                                              {"ever_excluded", ids(run.ever_excluded, array)},
                                              {"ever_off_at_rest", ids(run.ever_off_at_rest, array)},
+                                             {"silent", ids(run.silent, array)},
                                              {"turned_at_rest", run.turned_at_rest},
                                              {"blocks_with_bound", run.bounded_blocks},
                                              {"bound_mean_radps", mean_bound(run)},
@@ -89,8 +102,9 @@ std::string dip_text(const session::DipCheck& check, const io::ArrayFile& group)
       "{:.2f} to {:.2f} deg in {}, {:.2f} expected", deg_from_rad(check.least_rad), deg_from_rad(check.most_rad),
       count_text(static_cast<std::size_t>(check.checked), "block"), deg_from_rad(reference.dip_rad));
   if (check.disagreeing == 0)
-    return fmt::format("dip         {}: gravity and the field agree, within {:.2f} deg or less\n", measured,
-                       deg_from_rad(check.widest_allowed_rad));
+    return fmt::format(
+        "dip         {}: gravity and the field agree, as far as their bounds and the reference tell ({:.2f} deg)\n",
+        measured, deg_from_rad(check.widest_allowed_rad));
   return fmt::format(
       "dip         {}: gravity and the field DISAGREE in {} of them from t = {:.3f} s on, by up to {:.2f} deg more "
       "than their bounds and the reference allow. Rely on neither direction until it is known why: a disturbed field, "

@@ -30,7 +30,7 @@ void take(const RateVerdict& now, double time_s, RateRun& run) {
   const bool changed = now.suspects != before.suspects || now.excluded != before.excluded ||
                        now.off_at_rest != before.off_at_rest || now.turned_at_rest != before.turned_at_rest;
   if (changed) run.events.push_back(event);
-  if (now.turned_at_rest && !before.turned_at_rest) ++run.turned_at_rest;
+  if (now.turned_at_rest && !before.turned_at_rest && run.turned_at_rest++ == 0) run.turned_at_rest_s = time_s;
   run.ever_excluded = run.ever_excluded | now.excluded;
   run.ever_off_at_rest = run.ever_off_at_rest | now.off_at_rest;
   if (now.block_ended) {
@@ -76,16 +76,28 @@ io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& l
   reader->stop_when(interrupt_flag());
   const SensorModel model = array.datasheet.model();
   RateRun run;
+  Readings heard_s{};
   Sample sample;
   io::LogReader::Next next = io::LogReader::Next::row;
   while ((next = reader->next(sample)) == io::LogReader::Next::row) {
     RateSample one = rate_sample(array, model, sample);
     one.at_rest = rest != nullptr && rest->at_rest(sample.time_s);
     run.samples_at_rest += one.at_rest ? 1 : 0;
+    for (int i = 0; i < array.array.size(); ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      const bool heard = one.delivered.has(i) && std::isfinite(one.rate_radps[a]);
+      if (run.samples == 0 || heard) heard_s[a] = sample.time_s;
+    }
     ++run.samples;
     take(monitor->step(one), sample.time_s, run);
   }
   run.log = reader->statistics();
+  for (int i = 0; i < array.array.size(); ++i) {
+    const double quiet_s = run.log.last_time_s - heard_s[static_cast<std::size_t>(i)];
+    if (!(quiet_s > kSilent_s)) continue;
+    run.silent_s = run.silent.empty() ? quiet_s : std::fmin(run.silent_s, quiet_s);
+    run.silent = run.silent.with(i);
+  }
   run.interrupted = interrupted();
   run.stopped = next == io::LogReader::Next::error;
   if (run.stopped) run.stop = reader->error();

@@ -216,6 +216,7 @@ TEST(GroupsCommand, WhatIsAskedForWronglyIsSaid) {
       {{"--group", "mag=acc.json"}, "belongs to another array"},
       {{"--group", "gyros", "--limits"}, "--limits"},
       {{"--group", "gyros", "--events", "-"}, "name files"},
+      {{"--group", "mag=mag.json", "--events", "e.jsonl", "--verdicts", "e-mag.jsonl"}, "e-mag.jsonl"},
   };
   write_text(desk() / "run.csv", Recording(4, 9, Fault::none).csv());
   for (const Wrong& wrong : cases) {
@@ -231,6 +232,35 @@ TEST(GroupsCommand, WhatIsAskedForWronglyIsSaid) {
       run(desk(), {"monitor", "--array", "tool.toml", "--calibration", "acc.json", "--group", "gyros"}, "run.csv");
   EXPECT_EQ(stream.code, 2);
   EXPECT_TRUE(has(stream.err, "standard input")) << stream.err;
+}
+
+TEST(GroupsCommand, LimitsAreInTheUnitsOfTheGroup) {
+  const std::vector<std::string> asked = {"monitor",       "--array",  "tool.toml#mag",
+                                          "--calibration", "mag.json", "--limits"};
+  const Outcome text = run(desk(), asked);
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_TRUE(has(text.out, " nT")) << text.out;
+  EXPECT_FALSE(has(text.out, " mg")) << text.out;
+  std::vector<std::string> as_json = asked;
+  as_json.emplace_back("--json");
+  const Outcome json = run(desk(), as_json);
+  EXPECT_NEAR(nlohmann::json::parse(json.out)["limits"]["noise_nt"].get<double>(), 20.0, 0.5) << json.out;
+}
+
+// The page says what the JSON beside it says.
+TEST(GroupsCommand, ThePageOfAGroupHasTheLengthOfItsField) {
+  (void)watched(Fault::none, {"--report", "page.html"});
+  const std::string page = read_text(desk() / "page-mag.html");
+  EXPECT_TRUE(has(page, "51.375")) << "uT";
+  EXPECT_TRUE(has(page, "nT = 0.001 uT"));
+  EXPECT_FALSE(has(page, "9.80665"));
+}
+
+TEST(GroupsCommand, NoOutputTakesThePlaceOfTheArrayFile) {
+  const Outcome outcome = run(desk(), {"inject", "--array", "tool.toml#mag", "--log", "stand.csv", "--fault",
+                                       "m1:bias=1uT@2s", "--out", "tool.toml"});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_TRUE(has(read_text(desk() / "tool.toml"), "[[group]]"));
 }
 
 TEST(GroupsCommand, ACommandThatDoesNotServeAGroupSaysSo) {

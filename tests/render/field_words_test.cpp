@@ -54,7 +54,8 @@ TEST(FieldJson, APageThatShowsMg0ShowsTheFineUnit) {
   const double mg0 = io::units_of(FieldKind::gravity).fine_per_inside;
   EXPECT_NEAR(mg0 * out["off_mps2"].get<double>(), 1000.0, 1e-9) << "nT";
   EXPECT_NEAR(mg0 * out["list"][0]["bound_mps2"].get<double>(), 4000.0, 1e-9);
-  EXPECT_NEAR(out["scale_per_mps2"].get<double>(), mg0 / 4000.0, 1e-12);
+  EXPECT_EQ(out["scale_per_mps2"], 0.25) << "per uT";
+  EXPECT_EQ(io::with_fine_as_mg0(io::parsed(R"({"g_mps2":12.5})"), FieldKind::magnetic)["g_mps2"], 50.0) << "uT";
   EXPECT_EQ(out["t_s"], 2);
   EXPECT_EQ(io::with_fine_as_mg0(in, FieldKind::gravity), in);
 }

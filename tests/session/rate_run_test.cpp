@@ -68,7 +68,8 @@ class Log {
       const Vec3 w = still ? Vec3{} : Vec3{60.0 * std::sin(t), 40.0, 30.0 * std::cos(2.0 * t)};
       for (int i = 0; i < 6; ++i) {
         const double reading = dot(kAxes[i], w) + noise(random) + (i == bad && t >= from_s ? fault_degps : 0.0);
-        file << (i > 0 ? "," : "") << reading;
+        file << (i > 0 ? "," : "");
+        if (std::isfinite(reading)) file << reading;
       }
       file << '\n';
     }
@@ -105,6 +106,15 @@ TEST(RateRun, AFaultyGyroIsExcludedAndNamedInAnEvent) {
   EXPECT_LT(run->events.front().time_s, 7.5);
   const std::string line = rate_event_json(run->events.back(), array.array);
   EXPECT_NE(line.find("\"excluded\":[\"g3\"]"), std::string::npos) << line;
+}
+
+TEST(RateRun, AGyroThatDeliversNothingIsSaid) {
+  const auto run = run_rates(gyros(), Log(20, 3, std::nan(""), 7.0).spec(), nullptr);
+  ASSERT_TRUE(run.has_value()) << run.error().text();
+  EXPECT_EQ(run->silent, SensorSet::of(3));
+  EXPECT_NEAR(run->silent_s, 13.0, 0.05);
+  EXPECT_TRUE(run->ever_excluded.empty()) << "missing data blames nobody";
+  EXPECT_TRUE(run_rates(gyros(), Log(20, -1, 0.0, 0.0).spec(), nullptr)->silent.empty());
 }
 
 TEST(RateRun, RestThatIsKnownCounts) {

@@ -17,8 +17,8 @@ Json in_field_units(const Json& value, FieldKind field);
 /// The same of one line of JSON.
 std::string in_field_units(const std::string& line, FieldKind field);
 
-/// For a page that shows lengths in mg0: the same keys, with such numbers that what it shows is in the fine unit of the
-/// field.
+/// For a page that shows errors in mg0, and lengths and scales in m/s^2: the same keys, with such numbers that what it
+/// shows is in the fine and the coarse unit of the field.
 Json with_fine_as_mg0(const Json& value, FieldKind field);
 
 }  // namespace io

@@ -13,6 +13,8 @@ namespace render {
 
 /// A line above the results of a group.
 std::string group_heading(const io::ArrayFile& group);
+/// The same before its lines of JSON: {"group": {"name": ..., "field": ..., "sensors": [...]}}.
+std::string group_heading_json(const io::ArrayFile& group);
 
 std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& group);
 std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& group);

@@ -9,9 +9,9 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace render {
 
-std::string limits_text(const findings::MonitorLimits& limits);
+std::string limits_text(const findings::MonitorLimits& limits, io::FieldKind field = io::FieldKind::gravity);
 /// One JSON object.
-std::string limits_json(const findings::MonitorLimits& limits);
+std::string limits_json(const findings::MonitorLimits& limits, io::FieldKind field = io::FieldKind::gravity);
 
 }  // namespace render
 }  // namespace PLUMB_ABI

@@ -24,11 +24,16 @@ struct RateEvent {
   MotionCause cause = MotionCause::none;
 };
 
+inline constexpr double kSilent_s = 1.0;
+
 struct RateRun {
   RateVerdict last;
   std::uint64_t samples = 0, samples_at_rest = 0, blocks = 0;
   SensorSet ever_excluded, ever_off_at_rest;
+  SensorSet silent;                ///< no number from them for `kSilent_s` at the end
+  double silent_s = 0.0;           ///< the shortest of these
   int turned_at_rest = 0;          ///< times that this was found anew
+  double turned_at_rest_s = 0.0;   ///< when first
   double worst_bound_radps = 0.0;  ///< of the means of two blocks, where they were valid
   double bound_sum_radps = 0.0;
   std::uint64_t bounded_blocks = 0;
