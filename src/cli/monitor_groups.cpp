@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 
+#include "monitor_report.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/group_report.hpp"

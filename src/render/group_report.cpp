@@ -12,14 +12,6 @@ inline namespace PLUMB_ABI {
 namespace render {
 namespace {
 
-io::Json ids(SensorSet set, const SensorArray& array) {
-  io::Json out = io::Json::array();
-  for (int i = 0; i < array.size(); ++i) {
-    if (set.has(i)) out.push_back(array.row(i).id.data());
-  }
-  return out;
-}
-
 double mean_bound(const session::RateRun& run) {
   return run.bounded_blocks > 0 ? run.bound_sum_radps / static_cast<double>(run.bounded_blocks) : 0.0;
 }
@@ -34,7 +26,7 @@ std::string group_heading(const io::ArrayFile& group) {
 std::string group_heading_json(const io::ArrayFile& group) {
   return io::object({{"group", io::object({{"name", group.group},
                                            {"field", to_string(group.field)},
-                                           {"sensors", ids(group.array.all(), group.array)}})}})
+                                           {"sensors", io::ids_of(group.array.all(), group.array)}})}})
              .dump() +
          "\n";
 }
@@ -79,11 +71,11 @@ std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& grou
                                              {"samples_at_rest", run.samples_at_rest},
                                              {"blocks", run.blocks},
                                              {"rows_bad", run.log.rows_bad},
-                                             {"excluded", ids(run.last.excluded, array)},
-                                             {"off_at_rest", ids(run.last.off_at_rest, array)},
-                                             {"ever_excluded", ids(run.ever_excluded, array)},
-                                             {"ever_off_at_rest", ids(run.ever_off_at_rest, array)},
-                                             {"silent", ids(run.silent, array)},
+                                             {"excluded", io::ids_of(run.last.excluded, array)},
+                                             {"off_at_rest", io::ids_of(run.last.off_at_rest, array)},
+                                             {"ever_excluded", io::ids_of(run.ever_excluded, array)},
+                                             {"ever_off_at_rest", io::ids_of(run.ever_off_at_rest, array)},
+                                             {"silent", io::ids_of(run.silent, array)},
                                              {"turned_at_rest", run.turned_at_rest},
                                              {"blocks_with_bound", run.bounded_blocks},
                                              {"bound_mean_radps", mean_bound(run)},

@@ -44,14 +44,6 @@ void take(const RateVerdict& now, double time_s, RateRun& run) {
   run.last = now;
 }
 
-io::Json ids(SensorSet set, const SensorArray& array) {
-  io::Json out = io::Json::array();
-  for (int i = 0; i < array.size(); ++i) {
-    if (set.has(i)) out.push_back(array.row(i).id.data());
-  }
-  return out;
-}
-
 }  // namespace
 
 RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, const Sample& sample) {
@@ -107,9 +99,9 @@ io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& l
 std::string rate_event_json(const RateEvent& event, const SensorArray& array) {
   return io::object({{"t_s", event.time_s},
                      {"cause", to_string(event.cause)},
-                     {"suspects", ids(event.suspects, array)},
-                     {"excluded", ids(event.excluded, array)},
-                     {"off_at_rest", ids(event.off_at_rest, array)},
+                     {"suspects", io::ids_of(event.suspects, array)},
+                     {"excluded", io::ids_of(event.excluded, array)},
+                     {"off_at_rest", io::ids_of(event.off_at_rest, array)},
                      {"turned_at_rest", event.turned_at_rest}})
       .dump();
 }

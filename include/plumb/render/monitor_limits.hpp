@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plumb/findings/monitor_limits.hpp"
+#include "plumb/io/field.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
