@@ -205,13 +205,16 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   out.text = text;
   const std::string file_name = last_part(path);
   out.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
+  const GroupNode own{root, path, FieldKind::gravity, ""};
+  const bool accelerometers = group.empty() && (root.find("sensor") != nullptr || root.find("group") == nullptr);
+  if (accelerometers) {
+    out.gravity = read_gravity(root, path);
+    out.monitor = read_monitor(own);
+  }
   out.input = read_input(root, path, out.datasheet.reads);
   out.output_frame = read_frame(root, path);
   std::vector<ArrayFile> groups = read_groups(root, out, lookup);
-  if (!group.empty() || (root.find("sensor") == nullptr && !groups.empty())) return chosen(groups, group, path);
-  const GroupNode own{root, path, FieldKind::gravity, ""};
-  out.gravity = read_gravity(root, path);
-  out.monitor = read_monitor(own);
+  if (!accelerometers) return chosen(groups, group, path);
   out.motion = read_motion(root, path, out.input);
   read_sensors(own, out);
   read_clocks(root, path, out);

@@ -184,9 +184,10 @@ DatasheetSensor read_sensor(const TomlTable& table, const Surroundings& around) 
   if (sigma_mps2 < kLeastNoise_mps2)
     table.fail(noise.line, "noise",
                "is " + brief(units.coarse_per_inside * sigma_mps2) + " " + units.coarse + ", below " +
-                   brief(units.coarse_per_inside * kLeastNoise_mps2) + " " + units.coarse +
-                   (table.field_of() == FieldKind::gravity ? " (0.1 ng0)" : "") + ": no " + units.sensor +
-                   " is that quiet, and every limit follows from it",
+                   (table.field_of() == FieldKind::gravity
+                        ? std::string("1e-9 m/s^2 (0.1 ng0)")
+                        : brief(units.coarse_per_inside * kLeastNoise_mps2) + " " + units.coarse) +
+                   ": no " + units.sensor + " is that quiet, and every limit follows from it",
                std::string("give the noise as the datasheet or a recording at rest states it, 1 sigma of one sample: "
                            "noise = \"") +
                    units.noise_example + "\"");
