@@ -208,7 +208,12 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
             ? session::check_dip(gravity.points(), field.points(), group.array->magnetic, together_s(field.points()))
             : session::DipCheck{};
     print_now(options.json ? render::dip_json(dip, *group.array) : render::dip_text(dip, *group.array));
-    if (dip.disagreeing > 0) worst = worse(worst, io::ExitCode::verification_failed);
+    if (dip.disagreeing > 0) {
+      worst = worse(worst, io::ExitCode::verification_failed);
+      if (!options.report.empty())
+        print_error("plumb: " + options.report + " and " + name_for_group(options.report, group.name) +
+                    " judge each group by itself and do not hold this disagreement: sign neither.\n");
+    }
   }
   return worst;
 }

@@ -218,6 +218,7 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   out.motion = read_motion(root, path, out.input);
   read_sensors(own, out);
   read_clocks(root, path, out);
+  refuse_columns_of(out, groups);
   out.fingerprint = fingerprint_of(out.datasheet);
   out.groups = std::move(groups);
   return out;

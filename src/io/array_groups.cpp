@@ -235,6 +235,18 @@ void refuse_shared(const std::vector<ArrayFile>& groups, const TomlNode& list, c
 
 }  // namespace
 
+void refuse_columns_of(const ArrayFile& tool, const std::vector<ArrayFile>& groups) {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const std::string& column : groups[i].input.sensor_columns) {
+      const auto& own = tool.input.sensor_columns;
+      if (std::find(own.begin(), own.end(), column) != own.end())
+        throw Refusal(FileError{tool.path, 0, "group[" + std::to_string(i + 1) + "].sensor",
+                                "column " + in_quotes(column) + " belongs to an accelerometer already",
+                                "give every sensor its own column of the log"});
+    }
+  }
+}
+
 std::vector<std::string> with_rate_keys(std::vector<std::string> names) {
   for (const RateKey& key : kErrors) names.emplace_back(key.figure.key);
   return names;

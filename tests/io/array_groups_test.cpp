@@ -176,6 +176,7 @@ TEST(ArrayGroups, WhatIsWrongIsSaidWithItsPlaceAndItsRemedy) {
       {"name = \"mag\"", "name = \"a b\"", "group[1].name", "letters"},
       {"name = \"mag\"", "name = \"-m\"", "group[1].name", "letters"},
       {"id = \"g3\"", "id = \"m3\"", "group[2].sensor", "column"},
+      {"id = \"m3\"", "id = \"m3\"\ncolumn = \"a1_v\"", "group[1].sensor", "accelerometer"},
       {"sample_period_s = 0.01", "", "group[2].rate.sample_period_s", "sample_period_s"},
       {"rate_bound_radps = 12", "rate_bound_radps = -1", "group[2].rate.rate_bound_radps", "rad/s"},
       {"bias_bound_radps = 0.03", "stability = \"1 deg/s\"", "group[2].sensor[2].stability", "not a known key"},
