@@ -160,6 +160,10 @@ io::ExitCode watch(const MonitorOptions& options, const io::ArrayFile& array, Mo
   if (kept) kept = motion.commit();
   if (kept) kept = keep(options.snapshot_out, monitor);
   if (!kept) return report(kept.error());
+  if (options.report_only) {
+    if (!options.json) print_now(outputs.report->summary());
+    return io::ExitCode::done;
+  }
   tell_refusals(host, sensors);
   if (options.json) {
     print_now(render::summary_json(*done, array, sensors, days, past.roll_test, motion.told()));
@@ -253,6 +257,9 @@ void warn_of_stations(const io::ArrayFile& array) {
 }  // namespace
 
 io::ExitCode monitor_array(const MonitorOptions& options, session::VerdictSink* beside) {
+  const auto tell = [&options](const std::string& note) {
+    if (!options.report_only) print_error(note);
+  };
   if (const std::optional<io::FileError> misuse = follow_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = calibration_misuse(options)) return report(*misuse);
   if (const std::optional<io::FileError> misuse = report_misuse(options)) return report(*misuse);
@@ -280,13 +287,12 @@ io::ExitCode monitor_array(const MonitorOptions& options, session::VerdictSink* 
   if (!calibration) return report(calibration.error());
   const io::FileExpected<double> days = session::days_since(*calibration, options.calibration, options.date);
   if (!days) return report(days.error());
-  print_error(
-      render::undated_note(*array, *calibration, options.calibration) +
-      render::exact_note(*calibration, options.calibration) + render::stated_note(*calibration, options.calibration) +
-      render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
+  tell(render::undated_note(*array, *calibration, options.calibration) +
+       render::exact_note(*calibration, options.calibration) + render::stated_note(*calibration, options.calibration) +
+       render::noise_note(*array, session::noise_changed(*array, calibration->calibration), options.calibration));
   if (array->monitor.mode == MonitorMode::plumb)  // the paper's method has no bound
-    print_error(render::in_field_words(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)),
-                                       array->field));
+    tell(render::in_field_words(render::alignment_note(*array, findings::alignment_of(*array, &*calibration)),
+                                array->field));
   const io::ArrayFile aligned = findings::with_alignment(*array, &*calibration);
   if (const std::optional<io::FileError> misuse = past_misuse(options, *array)) return report(*misuse);
   warn_of_stations(*array);

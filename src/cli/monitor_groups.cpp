@@ -191,9 +191,11 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
   session::GroupTrack gravity;
   MonitorOptions own = options;
   own.groups.clear();
+  own.report.clear();
   io::ExitCode worst = monitor_array(own, &gravity);
   if (worst == io::ExitCode::usage || worst == io::ExitCode::invalid_input || worst == io::ExitCode::other)
     return worst;  // said already; what the groups would be held against is not there
+  std::vector<MonitorOptions> reports = {own};
   for (const Wanted& group : *groups) {
     if (interrupted()) return io::ExitCode::other;
     print_now(options.json ? render::group_heading_json(*group.array) : render::group_heading(*group.array));
@@ -202,7 +204,8 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
       continue;
     }
     session::GroupTrack field;
-    worst = worse(worst, monitor_array(options_of(options, group), &field));
+    MonitorOptions wanted = options_of(own, group);
+    worst = worse(worst, monitor_array(wanted, &field));
     const session::DipCheck dip =
         group.array->magnetic.dip_known
             ? session::check_dip(gravity.points(), field.points(), group.array->magnetic, together_s(field.points()))
@@ -210,10 +213,19 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
     print_now(options.json ? render::dip_json(dip, *group.array) : render::dip_text(dip, *group.array));
     if (dip.disagreeing > 0) {
       worst = worse(worst, io::ExitCode::verification_failed);
-      if (!options.report.empty())
-        print_error("plumb: " + options.report + " and " + name_for_group(options.report, group.name) +
-                    " judge each group by itself and do not hold this disagreement: sign neither.\n");
+      wanted.report_doubt = reports.front().report_doubt =
+          fmt::format("gravity and the field of {} disagree by the dip", group.name);
     }
+    wanted.report = name_for_group(options.report, group.name);
+    reports.push_back(std::move(wanted));
+  }
+  if (options.report.empty()) return worst;
+  reports.front().report = options.report;
+  for (MonitorOptions& one : reports) {
+    one.report_only = true;
+    for (std::string* file : {&one.events, &one.verdicts, &one.motion, &one.inclination, &one.incidents.directory})
+      file->clear();
+    worst = worse(worst, monitor_array(one, nullptr));
   }
   return worst;
 }

@@ -42,6 +42,7 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
     out.report = *std::move(report);
     out.sinks.push_back(out.report.get());
   }
+  if (options.report_only) return {};
   // --events - writes there what --json would.
   const bool told = options.events == "-";
   if (options.json && told) return {};

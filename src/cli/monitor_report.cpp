@@ -146,6 +146,7 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const
     calibration = *std::move(read);
   }
   if (render::common_cause_of(run, array_)) health_.doubt("one cause may have moved several sensors of one direction");
+  if (!options_.report_doubt.empty()) health_.doubt(options_.report_doubt);
   beside_ = render::note_actions(run, array_, sensors_);
   for (std::string& action : render::motion_actions(motion, array_)) beside_.push_back(std::move(action));
   if (const std::string exact = calibration ? render::exact_words(*calibration, options_.calibration) : "";

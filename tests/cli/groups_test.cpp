@@ -158,6 +158,8 @@ TEST(GroupsCommand, AHealthyToolIsNominalInEveryGroupAndTheDipAgrees) {
   EXPECT_FALSE(has(read_text(desk() / "health-mag.html"), "mg0"));
   EXPECT_FALSE(has(read_text(desk() / "health-mag.json"), "mps2"));
   EXPECT_TRUE(has(read_text(desk() / "health.html"), "mg0"));
+  for (const char* const page : {"health.html", "health-mag.html"})
+    EXPECT_TRUE(has(read_text(desk() / page), "Usable for survey: yes")) << page;
 }
 
 TEST(GroupsCommand, AShiftedAndAStuckMagnetometerAreNamed) {
@@ -179,6 +181,14 @@ TEST(GroupsCommand, AGroupTurnedAgainstTheOtherIsToldByTheDip) {
   const Outcome outcome = watched(Fault::turned);
   EXPECT_EQ(outcome.code, 6) << outcome.out << outcome.err;
   EXPECT_TRUE(has(outcome.out, "DISAGREE")) << outcome.out;
+  // Neither report may be signed: what is printed beside it alone would not hold a reader of the page.
+  (void)watched(Fault::turned, {"--report", "turned.html"});
+  for (const char* const page : {"turned", "turned-mag"}) {
+    const std::string data = read_text(desk() / (std::string(page) + ".json").c_str());
+    EXPECT_TRUE(has(data, "disagree by the dip")) << page;
+    EXPECT_TRUE(has(read_text(desk() / (std::string(page) + ".html").c_str()), "Usable for survey: orientation only"))
+        << page;
+  }
   const Outcome json = watched(Fault::turned, {"--json"});
   EXPECT_EQ(json.code, 6);
   EXPECT_TRUE(has(json.out, "\"blocks_disagreeing\":")) << json.out;
