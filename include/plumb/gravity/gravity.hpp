@@ -65,7 +65,7 @@ Expected<GravityReference> given_gravity(double g_mps2, double sigma_mps2) noexc
 
 inline constexpr double kLeastField = 5.0, kMostField = 17.5;  ///< 20 and 70 uT
 
-/// Of a magnetic field. Errors: as `given_gravity`, outside of `kLeastField` to `kMostField`.
+/// Of a magnetic field, both in units of 4 uT. Errors: as `given_gravity`, outside of `kLeastField` to `kMostField`.
 Expected<GravityReference> given_field(double length, double sigma) noexcept;
 
 /// Piecewise linear in depth; depths strictly increasing; outside the table: out_of_range (index 2).
