@@ -90,17 +90,17 @@ class Archive {
  private:
   template <class T, class Check>
   static constexpr ScalarForm form_of() noexcept {
-    using Kind = ScalarForm::Kind;
+    using Form = ScalarForm::Kind;
     constexpr auto kWidth = static_cast<std::uint8_t>(sizeof(T));
     if constexpr (std::is_floating_point_v<T>) {
-      return {std::is_same_v<Check, AnyBits> ? Kind::any_real : Kind::real, kWidth};
+      return {std::is_same_v<Check, AnyBits> ? Form::any_real : Form::real, kWidth};
     } else if constexpr (std::is_same_v<T, SensorSet>) {
-      return {Kind::set, kWidth};
+      return {Form::set, kWidth};
     } else if constexpr (std::is_same_v<T, bool>) {
-      return {Kind::flag, kWidth};
+      return {Form::flag, kWidth};
     } else {
       static_assert(std::is_integral_v<T> || std::is_enum_v<T>);
-      return {std::is_same_v<Check, Within> ? Kind::ranged : Kind::number, kWidth};
+      return {std::is_same_v<Check, Within> ? Form::ranged : Form::number, kWidth};
     }
   }
   /// Reads or writes the scalar of that form at `value`; a writer leaves it alone.
