@@ -1,6 +1,7 @@
 # Tests: GoogleTest + RapidCheck executables, must-not-compile checks, z3 proofs. Labels by subject: core, host, compile,
 # defect, law, model, proof, trace. Labels by time: quick (each a fraction of a second), slow (scripts/test --all only).
 
+plumb_find_package(Eigen3 DEBIAN libeigen3-dev TARGET Eigen3::Eigen NO_MODULE)
 plumb_find_package(GTest DEBIAN "libgtest-dev libgmock-dev" TARGET GTest::gmock_main)
 plumb_find_package(rapidcheck DEBIAN librapidcheck-dev TARGET rapidcheck_gtest CONFIG)
 
@@ -65,7 +66,7 @@ function(plumb_test_settings target)
       target_link_libraries(${target} PRIVATE ${library})
     endif()
   endforeach()
-  target_link_libraries(${target} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest)
+  target_link_libraries(${target} PRIVATE rapidcheck rapidcheck_gtest GTest::gmock GTest::gtest Eigen3::Eigen)
   if(PLUMB_FAST_BUILD)
     # What a test costs to compile is its libraries' templates: the files of a batch share them.
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 42)
@@ -547,6 +548,11 @@ if(PLUMB_INSTALL AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_FLAGS MATCHES "-fsan
             "-DWORK=${PROJECT_BINARY_DIR}/package" "-DFLAGS=${CMAKE_CXX_FLAGS}"
             "-DGENERATOR=${CMAKE_GENERATOR}" -P "${PROJECT_SOURCE_DIR}/cmake/RunPackage.cmake")
   set_tests_properties(package.is_used PROPERTIES LABELS "host;slow" TIMEOUT 900)
+  add_test(NAME package.embedded
+    COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${PROJECT_SOURCE_DIR}" "-DWORK=${PROJECT_BINARY_DIR}/embedded"
+            "-DEXPECTED=$<TARGET_FILE:plumb_monitor_loop_c>" "-DEXAMPLE=${PROJECT_SOURCE_DIR}/examples/embed/monitor_loop.c"
+            "-DCXX=${CMAKE_CXX_COMPILER}" -P "${PROJECT_SOURCE_DIR}/cmake/RunEmbedded.cmake")
+  set_tests_properties(package.embedded PROPERTIES LABELS "host;slow" TIMEOUT 900)
 endif()
 
 # --- Proofs: each script exits with 77 where its tool is absent (scripts/assure installs them all). --------

@@ -165,10 +165,13 @@ if(pkg_config)
   endforeach()
 endif()
 
-# As a subdirectory of another project; ccache, where it is, knows the objects already.
+# As a subdirectory of another project, by FetchContent, which calls add_subdirectory; ccache, where it is, knows the objects
+# already.
 file(WRITE "${WORK}/parent/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
 project(parent LANGUAGES CXX C)
-add_subdirectory(${SOURCE} plumb)
+include(FetchContent)
+FetchContent_Declare(plumb SOURCE_DIR \"${SOURCE}\")
+FetchContent_MakeAvailable(plumb)
 add_subdirectory(${SOURCE}/examples/embed embed)
 ")
 find_program(ccache ccache)

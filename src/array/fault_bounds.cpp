@@ -4,13 +4,11 @@
 #include <cstddef>
 #include <limits>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A reading this much beyond its slack, relative, still touches it: corners where more than three sensors meet.
 constexpr double kTouches = 1e-9;
@@ -28,16 +26,16 @@ void count_vertex(const SensorArray& array, const Readings& slack, SensorSet cor
   Readings off{};
   SensorSet objects;
   for (int i = 0; i < array.size(); ++i) {
-    off[index(i)] = std::fabs(dot(array.axis(i), d));
-    if (!corner.has(i) && off[index(i)] > slack[index(i)] * (1.0 + kTouches)) objects = objects.with(i);
+    off[at(i)] = std::fabs(dot(array.axis(i), d));
+    if (!corner.has(i) && off[at(i)] > slack[at(i)] * (1.0 + kTouches)) objects = objects.with(i);
   }
   if (!(objects & trusted).empty()) return;  // no vertex of what these units allow
   const int against = units.count(objects);
-  raise(out.vector_error[index(against)], norm(d));
+  raise(out.vector_error[at(against)], norm(d));
   for (int i = 0; i < array.size(); ++i) {
     if (trusted.has(i)) continue;
     const int k = units.count(objects.with(i));
-    raise(out.fault[index(k)][index(i)], slack[index(i)] + off[index(i)]);
+    raise(out.fault[at(k)][at(i)], slack[at(i)] + off[at(i)]);
   }
 }
 
@@ -59,7 +57,7 @@ void count_triple(const SensorArray& array, const Readings& slack, int triple, F
 double FaultBounds::worst_fault(int k) const noexcept {
   if (k < 1 || k > sensors) return kInfinity;
   double worst = 0.0;
-  for (int i = 0; i < sensors; ++i) raise(worst, fault[index(k)][index(i)]);
+  for (int i = 0; i < sensors; ++i) raise(worst, fault[at(k)][at(i)]);
   return worst;
 }
 
@@ -71,13 +69,13 @@ FaultBounds fault_bounds(const SensorArray& array, const Readings& slack) noexce
   const int last = array.units().size() - 1 - coplanarity(array, array.all());
   for (int k = 1; k <= n; ++k) {
     // Whoever may distrust k units may distrust fewer.
-    raise(out.vector_error[index(k)], out.vector_error[index(k - 1)]);
+    raise(out.vector_error[at(k)], out.vector_error[at(k - 1)]);
     if (k > last) {
-      out.fault[index(k)].fill(kInfinity);
-      out.vector_error[index(k)] = kInfinity;
+      out.fault[at(k)].fill(kInfinity);
+      out.vector_error[at(k)] = kInfinity;
       continue;
     }
-    for (int i = 0; i < n; ++i) raise(out.fault[index(k)][index(i)], out.fault[index(k - 1)][index(i)]);
+    for (int i = 0; i < n; ++i) raise(out.fault[at(k)][at(i)], out.fault[at(k - 1)][at(i)]);
   }
   if (last < 0) out.vector_error[0] = kInfinity;
   out.fault[0].fill(kInfinity);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "linear.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
@@ -13,8 +14,6 @@ inline namespace PLUMB_ABI {
 namespace {
 
 using array_detail::Rows;
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Members of a set as a list, with the weight of each row relative to the one of least noise.
 struct Selection {
@@ -31,20 +30,20 @@ Selection select(const SensorArray& array, SensorSet used, Weights weights) noex
   double sigma_min = std::numeric_limits<double>::infinity();
   for (int i = 0; i < array.size(); ++i) {
     if (!used.has(i)) continue;
-    out.sensor[index(out.count++)] = i;
+    out.sensor[at(out.count++)] = i;
     if (array.sigma_mps2(i) < sigma_min) sigma_min = array.sigma_mps2(i);
   }
   if (weights == Weights::whitened) out.sigma_min = sigma_min;
   for (int r = 0; r < out.count; ++r) {
-    const double sigma = array.sigma_mps2(out.sensor[index(r)]);
-    out.weight[index(r)] = weights == Weights::whitened ? sigma_min / sigma : 1.0;
+    const double sigma = array.sigma_mps2(out.sensor[at(r)]);
+    out.weight[at(r)] = weights == Weights::whitened ? sigma_min / sigma : 1.0;
   }
   return out;
 }
 
 Rows weighted_rows(const SensorArray& array, const Selection& s) noexcept {
   Rows rows;
-  for (int r = 0; r < s.count; ++r) rows.add(scaled(array.axis(s.sensor[index(r)]), s.weight[index(r)]));
+  for (int r = 0; r < s.count; ++r) rows.add(scaled(array.axis(s.sensor[at(r)]), s.weight[at(r)]));
   return rows;
 }
 
@@ -57,7 +56,7 @@ struct Triangle {
 /// Takes from column q its share along the unit column p and returns that share.
 double project_out(Rows& m, std::size_t p, std::size_t q) noexcept {
   const double share = array_detail::column_dot(m, p, q);
-  for (int i = 0; i < m.count; ++i) m.row[index(i)][q] -= share * m.row[index(i)][p];
+  for (int i = 0; i < m.count; ++i) m.row[at(i)][q] -= share * m.row[at(i)][p];
   return share;
 }
 
@@ -72,7 +71,7 @@ Triangle factor(Rows& m) noexcept {
     const double length = std::sqrt(array_detail::column_dot(m, q, q));
     if (!(length > 0.0) || !std::isfinite(length)) return Triangle{};
     r[3 * q + q] = length;
-    for (int i = 0; i < m.count; ++i) m.row[index(i)][q] /= length;
+    for (int i = 0; i < m.count; ++i) m.row[at(i)][q] /= length;
   }
   Triangle t;
   t.inverse[0] = 1.0 / r[0];
@@ -108,7 +107,7 @@ LeastSquares solve(const SensorArray& array, SensorSet used, Weights weights) no
     if (!std::isfinite(c)) return LeastSquares{};
   }
   for (int r = 0; r < s.count; ++r) {
-    out.column[index(s.sensor[index(r)])] = scaled(times(t.inverse, q.row[index(r)]), s.weight[index(r)]);
+    out.column[at(s.sensor[at(r)])] = scaled(times(t.inverse, q.row[at(r)]), s.weight[at(r)]);
   }
   out.valid = true;
   out.used = used & array.all();
@@ -124,23 +123,23 @@ struct Reflections {
 Reflections triangularise(Rows& m) noexcept {
   Reflections out;
   for (int k = 0; k < 3; ++k) {
-    const std::size_t c = index(k);
+    const std::size_t c = at(k);
     double tail = 0.0;
-    for (int i = k; i < m.count; ++i) tail += m.row[index(i)][c] * m.row[index(i)][c];
+    for (int i = k; i < m.count; ++i) tail += m.row[at(i)][c] * m.row[at(i)][c];
     const double length = std::copysign(std::sqrt(tail), m.row[c][c]);
     if (!(std::fabs(length) > 0.0)) continue;
     double square = 0.0;
     for (int i = k; i < m.count; ++i) {
-      const double vi = m.row[index(i)][c] + (i == k ? length : 0.0);
-      out.v[c][index(i)] = vi;
+      const double vi = m.row[at(i)][c] + (i == k ? length : 0.0);
+      out.v[c][at(i)] = vi;
       square += vi * vi;
     }
     out.beta[c] = 2.0 / square;
     for (std::size_t column = c; column < 3; ++column) {
       double share = 0.0;
-      for (int i = k; i < m.count; ++i) share += out.v[c][index(i)] * m.row[index(i)][column];
+      for (int i = k; i < m.count; ++i) share += out.v[c][at(i)] * m.row[at(i)][column];
       share *= out.beta[c];
-      for (int i = k; i < m.count; ++i) m.row[index(i)][column] -= share * out.v[c][index(i)];
+      for (int i = k; i < m.count; ++i) m.row[at(i)][column] -= share * out.v[c][at(i)];
     }
   }
   return out;
@@ -150,16 +149,16 @@ Reflections triangularise(Rows& m) noexcept {
 std::array<double, kCapacity> orthogonal_column(const Reflections& h, int j, int n) noexcept {
   constexpr double kOfWeight = 0.1;  // a unit vector of 24 entries has one of at least 0.204
   std::array<double, kCapacity> q{};
-  q[index(j)] = 1.0;
+  q[at(j)] = 1.0;
   for (int k = 2; k >= 0; --k) {
     double share = 0.0;
-    for (int i = k; i < n; ++i) share += h.v[index(k)][index(i)] * q[index(i)];
-    share *= h.beta[index(k)];
-    for (int i = k; i < n; ++i) q[index(i)] -= share * h.v[index(k)][index(i)];
+    for (int i = k; i < n; ++i) share += h.v[at(k)][at(i)] * q[at(i)];
+    share *= h.beta[at(k)];
+    for (int i = k; i < n; ++i) q[at(i)] -= share * h.v[at(k)][at(i)];
   }
   for (int i = 0; i < n; ++i) {
-    if (std::fabs(q[index(i)]) < kOfWeight) continue;
-    if (q[index(i)] < 0.0) {
+    if (std::fabs(q[at(i)]) < kOfWeight) continue;
+    if (q[at(i)] < 0.0) {
       for (double& entry : q) entry = -entry;
     }
     break;
@@ -177,9 +176,9 @@ ParityBasis parity(const SensorArray& array, SensorSet used, Weights weights) no
   for (int r = 0; r < out.rows; ++r) {
     const std::array<double, kCapacity> q = orthogonal_column(h, r + 3, s.count);
     for (int i = 0; i < s.count; ++i) {
-      const int sensor = s.sensor[index(i)];
+      const int sensor = s.sensor[at(i)];
       const double unit = weights == Weights::whitened ? array.sigma_mps2(sensor) : 1.0;
-      out.weight[index(r)][index(sensor)] = q[index(i)] / unit;
+      out.weight[at(r)][at(sensor)] = q[at(i)] / unit;
     }
   }
   return out;
@@ -234,7 +233,7 @@ double common_bias_visibility(const SensorArray& array) noexcept {
   double square = 0.0;
   for (int r = 0; r < basis.rows; ++r) {
     double sum = 0.0;
-    for (const double w : basis.weight[index(r)]) sum += w;
+    for (const double w : basis.weight[at(r)]) sum += w;
     square += sum * sum;
   }
   return std::sqrt(square / array.size());

@@ -4,19 +4,18 @@
 #include <cstddef>
 #include <initializer_list>
 
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-
 /// n axes at equal azimuths, the first above x, with the given cosine and sine of the half angle.
 void fill_cone(AxisList& axes, int n, double cosine, double sine) noexcept {
   for (int k = 0; k < n; ++k) {
     const double azimuth = 2.0 * kPi * k / n;
-    axes[index(k)] = {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+    axes[at(k)] = {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
   }
 }
 
@@ -26,22 +25,22 @@ Vec3 unit(double x, double y, double z) noexcept {
 }
 
 /// The four body diagonals of a cube.
-int add_diagonals(AxisList& axes, int at) noexcept {
-  axes[index(at++)] = unit(1.0, 1.0, 1.0);
-  axes[index(at++)] = unit(-1.0, 1.0, 1.0);
-  axes[index(at++)] = unit(1.0, -1.0, 1.0);
-  axes[index(at++)] = unit(-1.0, -1.0, 1.0);
-  return at;
+int add_diagonals(AxisList& axes, int next) noexcept {
+  axes[at(next++)] = unit(1.0, 1.0, 1.0);
+  axes[at(next++)] = unit(-1.0, 1.0, 1.0);
+  axes[at(next++)] = unit(1.0, -1.0, 1.0);
+  axes[at(next++)] = unit(-1.0, -1.0, 1.0);
+  return next;
 }
 
 /// (0, a, b) and (0, -a, b) with their cyclic permutations: six lines.
-int add_cyclic(AxisList& axes, int at, double a, double b) noexcept {
+int add_cyclic(AxisList& axes, int next, double a, double b) noexcept {
   for (const double s : {a, -a}) {
-    axes[index(at++)] = unit(0.0, s, b);
-    axes[index(at++)] = unit(s, b, 0.0);
-    axes[index(at++)] = unit(b, 0.0, s);
+    axes[at(next++)] = unit(0.0, s, b);
+    axes[at(next++)] = unit(s, b, 0.0);
+    axes[at(next++)] = unit(b, 0.0, s);
   }
-  return at;
+  return next;
 }
 
 }  // namespace
@@ -78,7 +77,7 @@ int cone_with_axis(AxisList& axes, int n) noexcept {
   // (n-1) cos^2 + 1 = n/3 makes the z entry of H'H equal to the other two.
   const double cosine2 = (n - 3.0) / (3.0 * (n - 1.0));
   fill_cone(axes, n - 1, std::sqrt(cosine2), std::sqrt(1.0 - cosine2));
-  axes[index(n - 1)] = {0.0, 0.0, 1.0};
+  axes[at(n - 1)] = {0.0, 0.0, 1.0};
   return n;
 }
 

@@ -6,12 +6,11 @@
 #include <limits>
 
 #include "linear.hpp"
+#include "plumb/core/detail/numbers.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr int pairs_of(int n) noexcept { return n * (n - 1) / 2; }
 
@@ -80,7 +79,7 @@ Error check_rows(const SensorRow* rows, int n) noexcept {
 
 TripleForm SensorArray::form(int k) const noexcept {
   TripleForm out{};
-  for (std::size_t c = 0; c < out.size(); ++c) out[c] = form_[c][index(k)];
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = form_[c][at(k)];
   return out;
 }
 
@@ -101,12 +100,12 @@ AttitudeProducts::AttitudeProducts(const Vec3& g_mps2) noexcept {
 }
 
 double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const noexcept {
-  const double misfit = i == j ? misfit_mps2[index(i)] : 0.0;
+  const double misfit = i == j ? misfit_mps2[plumb::at(i)] : 0.0;
   return of_parameters_at(i, j, attitude) + misfit * misfit;
 }
 
 double RowUncertainty::of_parameters_at(int i, int j, const AttitudeProducts& attitude) const noexcept {
-  const std::size_t rows = 4 * index(i >= j ? i : j), columns = 4 * index(i >= j ? j : i);
+  const std::size_t rows = 4 * plumb::at(i >= j ? i : j), columns = 4 * plumb::at(i >= j ? j : i);
   std::size_t at = rows * (rows + 1) / 2 + columns;
   double sum = 0.0;
   for (std::size_t p = 0; p < 4; at += rows + ++p) {
@@ -135,7 +134,9 @@ SensorSet RowUncertainty::without_variance(int sensors) const noexcept {
   constexpr double kNone = 1e-18;  // 1e-9 rad, relative, m/s^2, squared: no calibration knows a sensor so well
   SensorSet out;
   for (int i = 0; i < sensors; ++i) {
-    const auto variance = [this, i](int p) { return covariance[index((4 * i + p) * (4 * i + p + 1) / 2 + 4 * i + p)]; };
+    const auto variance = [this, i](int p) {
+      return covariance[plumb::at((4 * i + p) * (4 * i + p + 1) / 2 + 4 * i + p)];
+    };
     const double of_row = variance(0) + variance(1) + variance(2);
     if (!(of_row > kNone && variance(3) > kNone)) out = out.with(i);
   }
@@ -143,17 +144,17 @@ SensorSet RowUncertainty::without_variance(int sensors) const noexcept {
 }
 
 bool RowUncertainty::is_covariance() const noexcept {
-  constexpr double kRounding = 1e-6, kMostVariance = 1e12;
-  const auto entry = [this](int a, int b) { return covariance[index(a * (a + 1) / 2 + b)]; };
+  constexpr double kLeastShare = 1e-6, kMostVariance = 1e12;
+  const auto entry = [this](int a, int b) { return covariance[plumb::at(a * (a + 1) / 2 + b)]; };
   double largest = 0.0;
   for (int a = 0; a < 4 * kCapacity; ++a) largest = std::fmax(largest, entry(a, a));
   if (!(largest <= kMostVariance) || !(common_scale >= 0.0 && common_scale <= 1.0)) return false;
-  const double floor = kRounding * kRounding * largest;
+  const double floor = kLeastShare * kLeastShare * largest;
   for (int a = 0; a < 4 * kCapacity; ++a) {
     if (!(entry(a, a) >= -floor)) return false;
     for (int b = 0; b < a; ++b) {
       const double square = entry(a, b) * entry(a, b);
-      if (!(square <= (1.0 + kRounding) * entry(a, a) * entry(b, b) + largest * floor)) return false;
+      if (!(square <= (1.0 + kLeastShare) * entry(a, a) * entry(b, b) + largest * floor)) return false;
     }
   }
   return std::all_of(misfit_mps2.begin(), misfit_mps2.end(),
@@ -166,8 +167,8 @@ Expected<SensorArray> SensorArray::make(const SensorRow* rows, int n) noexcept {
   SensorArray array;
   array.size_ = n;
   for (int i = 0; i < n; ++i) {
-    array.rows_[index(i)] = rows[i];
-    array.rows_[index(i)].id = canonical(rows[i].id);
+    array.rows_[at(i)] = rows[i];
+    array.rows_[at(i)].id = canonical(rows[i].id);
   }
   array.derive();
   array.see_what_is_exact();
@@ -178,8 +179,8 @@ Expected<void> SensorArray::set_rows(const SensorRow* rows) noexcept {
   const Error wrong = check_rows(rows, size_);
   if (wrong.code != Errc::ok) return tl::unexpected<Error>(wrong);
   for (int i = 0; i < size_; ++i) {
-    rows_[index(i)] = rows[i];
-    rows_[index(i)].id = canonical(rows[i].id);
+    rows_[at(i)] = rows[i];
+    rows_[at(i)].id = canonical(rows[i].id);
   }
   derive();
   return {};
@@ -204,10 +205,10 @@ void SensorArray::derive() noexcept {
 }
 
 double SensorArray::row_covariance(int a, int b) const noexcept {
-  const double own = uncertainty_.covariance[index(a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a)];
+  const double own = uncertainty_.covariance[at(a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a)];
   if (a % 4 == 3 || b % 4 == 3) return own;
   const double share = uncertainty_.common_scale;
-  return own + share * share * axis(a / 4)[index(a % 4)] * axis(b / 4)[index(b % 4)];
+  return own + share * share * axis(a / 4)[at(a % 4)] * axis(b / 4)[at(b % 4)];
 }
 
 void SensorArray::set_uncertainty(const RowUncertainty& u) noexcept {

@@ -4,13 +4,12 @@
 #include <cstddef>
 
 #include "linear.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 Vec3 row_of(const Mat3& m, std::size_t r) noexcept { return {m[3 * r], m[3 * r + 1], m[3 * r + 2]}; }
 
@@ -40,29 +39,29 @@ Wiring Wiring::correct() noexcept {
 
 Wiring Wiring::reversed(int i) noexcept {
   Wiring out = correct();
-  out.sign[index(i)] = -1;
+  out.sign[at(i)] = -1;
   return out;
 }
 
 Wiring Wiring::swapped(int i, int j) noexcept {
   Wiring out = correct();
-  out.source[index(i)] = static_cast<std::uint8_t>(j);
-  out.source[index(j)] = static_cast<std::uint8_t>(i);
+  out.source[at(i)] = static_cast<std::uint8_t>(j);
+  out.source[at(j)] = static_cast<std::uint8_t>(i);
   return out;
 }
 
 Wiring Wiring::swapped_reversed(int i, int j) noexcept {
   Wiring out = swapped(i, j);
-  out.sign[index(i)] = -1;
-  out.sign[index(j)] = -1;
+  out.sign[at(i)] = -1;
+  out.sign[at(j)] = -1;
   return out;
 }
 
 Wiring Wiring::cycled(int i, int j, int k) noexcept {
   Wiring out = correct();
-  out.source[index(i)] = static_cast<std::uint8_t>(j);
-  out.source[index(j)] = static_cast<std::uint8_t>(k);
-  out.source[index(k)] = static_cast<std::uint8_t>(i);
+  out.source[at(i)] = static_cast<std::uint8_t>(j);
+  out.source[at(j)] = static_cast<std::uint8_t>(k);
+  out.source[at(k)] = static_cast<std::uint8_t>(i);
   return out;
 }
 
@@ -77,9 +76,9 @@ WiringEffect wiring_effect(const SensorArray& array, const Wiring& wiring) noexc
   array_detail::Rows wired;
   for (int i = 0; i < array.size(); ++i) {
     const Vec3 p = times(normal, array.axis(i));
-    wired.add(scaled(array.axis(wiring.source[index(i)]), wiring.sign[index(i)]));
+    wired.add(scaled(array.axis(wiring.source[at(i)]), wiring.sign[at(i)]));
     for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t c = 0; c < 3; ++c) k[3 * r + c] += p[r] * wired.row[index(i)][c];
+      for (std::size_t c = 0; c < 3; ++c) k[3 * r + c] += p[r] * wired.row[at(i)][c];
     }
   }
   array_detail::Rows residual;
@@ -87,7 +86,7 @@ WiringEffect wiring_effect(const SensorArray& array, const Wiring& wiring) noexc
     const Vec3& a = array.axis(i);
     const Vec3 explained = {a[0] * k[0] + a[1] * k[3] + a[2] * k[6], a[0] * k[1] + a[1] * k[4] + a[2] * k[7],
                             a[0] * k[2] + a[1] * k[5] + a[2] * k[8]};
-    residual.add(minus(wired.row[index(i)], explained));
+    residual.add(minus(wired.row[at(i)], explained));
   }
   const Vec3 stretch = array_detail::singular_values(rows_of(k));
   out.parity = array_detail::singular_values(residual)[0];

@@ -42,7 +42,7 @@ plumb_error read(const plumb_chip_clock* clock, std::int32_t clocks, ClockSetup&
   return answer(PLUMB_OK);
 }
 
-plumb_error check(const plumb_clocks* c) noexcept {
+plumb_error check_clocks(const plumb_clocks* c) noexcept {
   return check_alive(c == nullptr ? nullptr : &c->motion, kMotionAlive, 0);
 }
 
@@ -92,7 +92,7 @@ plumb_error plumb_clocks_init(void* storage, size_t storage_size, const plumb_mo
 
 plumb_error plumb_clocks_push(plumb_clocks* clocks, std::int32_t clock, const plumb_motion_sample* sample,
                               std::int32_t* push) noexcept {
-  plumb_error e = check(clocks);
+  plumb_error e = check_clocks(clocks);
   if (e.code == PLUMB_OK) e = check_struct(sample, 2);
   ClockPush became = ClockPush::not_configured;
   if (e.code == PLUMB_OK) became = clocks->clocks.push(clock, sample_of(*sample));
@@ -102,14 +102,14 @@ plumb_error plumb_clocks_push(plumb_clocks* clocks, std::int32_t clock, const pl
 
 plumb_error plumb_clocks_set(plumb_clocks* clocks, std::int32_t clock, double offset_s, double rate,
                              double since_s) noexcept {
-  const plumb_error e = check(clocks);
+  const plumb_error e = check_clocks(clocks);
   return e.code == PLUMB_OK ? answer(clocks->clocks.set_clock(clock, offset_s, rate, since_s)) : e;
 }
 
 plumb_error plumb_clocks_next(plumb_clocks* clocks, double now_s, plumb_motion_verdict* verdict,
                               std::int32_t* drawn) noexcept {
   if (drawn != nullptr) *drawn = 0;
-  plumb_error e = check(clocks);
+  plumb_error e = check_clocks(clocks);
   if (e.code == PLUMB_OK && drawn == nullptr) e = missing(3);
   if (e.code == PLUMB_OK && verdict != nullptr) e = check_struct(verdict, 2);
   if (e.code != PLUMB_OK) return without_verdict(e, verdict);
@@ -122,7 +122,7 @@ plumb_error plumb_clocks_next(plumb_clocks* clocks, double now_s, plumb_motion_v
 }
 
 plumb_motion* plumb_clocks_motion(plumb_clocks* clocks) noexcept {
-  return check(clocks).code == PLUMB_OK ? &clocks->motion : nullptr;
+  return check_clocks(clocks).code == PLUMB_OK ? &clocks->motion : nullptr;
 }
 
 }  // extern "C"

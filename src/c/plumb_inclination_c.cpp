@@ -17,13 +17,13 @@ namespace {
 using namespace plumb;
 using namespace plumb::c_api;
 
-constexpr std::uint64_t kAlive = 0x706c756d622d6931ULL;
+constexpr std::uint64_t kInclinationAlive = 0x706c756d622d6931ULL;
 
 static_assert(std::is_trivially_destructible<plumb_inclination>::value, "storage may simply be dropped");
 static_assert(static_cast<int>(InclinationStatus::contradicts_gravity) == PLUMB_INCLINATION_CONTRADICTS_GRAVITY,
               "the header names them all");
 
-InclinationSetup setup_of(const plumb_inclination_config& config) noexcept {
+InclinationSetup inclination_setup_of(const plumb_inclination_config& config) noexcept {
   InclinationSetup out;
   std::copy(config.axis, config.axis + 3, out.axis.begin());
   out.axis_bound_rad = config.axis_bound_rad;
@@ -93,16 +93,16 @@ plumb_error plumb_inclination_init(void* storage, size_t storage_size, const plu
   if (e.code == PLUMB_OK) e = check_struct(config, 3);
   if (e.code != PLUMB_OK) return e;
   auto* made = new (storage) plumb_inclination;
-  e = answer(made->inclination.configure(problem.array, problem.setup, setup_of(*config)));
+  e = answer(made->inclination.configure(problem.array, problem.setup, inclination_setup_of(*config)));
   if (e.code != PLUMB_OK) return e;
-  made->alive = kAlive;
+  made->alive = kInclinationAlive;
   *inclination = made;
   return e;
 }
 
 plumb_error plumb_inclination_step(plumb_inclination* inclination, const plumb_motion_sample* sample,
                                    const plumb_motion* motion, plumb_inclination_interval* interval) noexcept {
-  plumb_error e = check_alive(inclination, kAlive, 0);
+  plumb_error e = check_alive(inclination, kInclinationAlive, 0);
   if (e.code == PLUMB_OK) e = check_struct(sample, 1);
   if (e.code == PLUMB_OK) e = check_alive(motion, kMotionAlive, 2);
   const plumb_error writable = check_struct(interval, 3);

@@ -13,7 +13,7 @@ using namespace plumb::c_api;
 static_assert(kMotionCapacity <= PLUMB_C_MOTION_SENSORS && kGyros == PLUMB_C_GYROS, "the header has room for all");
 static_assert(std::is_trivially_destructible<plumb_motion>::value, "storage may simply be dropped");
 
-void take_sensors(const plumb_motion_config& config, MotionSetup& setup) noexcept {
+void take_motion_sensors(const plumb_motion_config& config, MotionSetup& setup) noexcept {
   for (size_t k = 0; k < static_cast<size_t>(config.sensors); ++k) {
     const plumb_motion_sensor& from = config.sensor[k];
     std::copy(from.lever_arm_m, from.lever_arm_m + 3, setup.lever_arm_m[k].begin());
@@ -38,7 +38,7 @@ void take_settings(const plumb_motion_config& config, MotionSetup& setup) noexce
   std::copy(config.block_samples, config.block_samples + kMotionScales, setup.block_samples.begin());
 }
 
-plumb_specific_force force_of(const SpecificForce& from) noexcept {
+plumb_specific_force force_for_c(const SpecificForce& from) noexcept {
   plumb_specific_force out{};
   out.validity = static_cast<std::int32_t>(from.validity);
   out.dominant = static_cast<std::int32_t>(from.dominant);
@@ -63,7 +63,7 @@ plumb_error prepare(const plumb_motion_config* config, int argument, MotionProbl
   if (e.code == PLUMB_OK)
     e = read_array(config->sensor, config->sensors, &plumb_motion_sensor::sigma_mps2, argument, out.array);
   if (e.code != PLUMB_OK) return e;
-  take_sensors(*config, out.setup);
+  take_motion_sensors(*config, out.setup);
   take_settings(*config, out.setup);
   return e;
 }
@@ -80,8 +80,8 @@ plumb_motion_verdict verdict_of(const MotionVerdict& from) noexcept {
   out.least_faults = from.least_faults;
   out.cause = static_cast<std::int32_t>(from.cause);
   out.gyros_disagree = from.gyros_disagree ? 1 : 0;
-  out.sample = force_of(from.sample);
-  out.block = force_of(from.block);
+  out.sample = force_for_c(from.sample);
+  out.block = force_for_c(from.block);
   return out;
 }
 

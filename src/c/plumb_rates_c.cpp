@@ -21,14 +21,14 @@ namespace {
 using namespace plumb;
 using namespace plumb::c_api;
 
-constexpr std::uint64_t kAlive = 0x706c756d622d7231ULL;
+constexpr std::uint64_t kRatesAlive = 0x706c756d622d7231ULL;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 static_assert(std::is_trivially_destructible<plumb_rates>::value, "storage may simply be dropped");
 static_assert(kMotionCapacity <= PLUMB_C_MOTION_SENSORS && kMostTriads == PLUMB_C_TRIADS,
               "the header has room for all");
 
-RateSetup setup_of(const plumb_rates_config& config) noexcept {
+RateSetup rate_setup_of(const plumb_rates_config& config) noexcept {
   RateSetup out;
   for (size_t k = 0; k < static_cast<size_t>(config.axes); ++k) {
     const plumb_gyro_axis& from = config.axis[k];
@@ -58,7 +58,7 @@ RateSample sample_of(const plumb_rates_sample& from) noexcept {
   return out;
 }
 
-plumb_angular_rate rate_of(const AngularRate& from) noexcept {
+plumb_angular_rate rate_for_c(const AngularRate& from) noexcept {
   plumb_angular_rate out{};
   out.validity = static_cast<std::int32_t>(from.validity);
   out.used = from.used.bits;
@@ -81,13 +81,13 @@ plumb_rates_verdict verdict_of(const RateVerdict& from) noexcept {
   out.turned_at_rest = from.turned_at_rest ? 1 : 0;
   out.block_ended = from.block_ended ? 1 : 0;
   out.cause = static_cast<std::int32_t>(from.cause);
-  out.sample = rate_of(from.sample);
-  out.block = rate_of(from.block);
+  out.sample = rate_for_c(from.sample);
+  out.block = rate_for_c(from.block);
   return out;
 }
 
 /// What stood in the verdict before is not the answer to this call, and must not be taken for it.
-plumb_error without_verdict(const plumb_error& e, plumb_rates_verdict* verdict) noexcept {
+plumb_error without_rates(const plumb_error& e, plumb_rates_verdict* verdict) noexcept {
   if (verdict != nullptr && check_struct(verdict, 0).code == PLUMB_OK) *verdict = verdict_of(RateVerdict{});
   return e;
 }
@@ -97,7 +97,7 @@ plumb_error not_below_zero(double value, int index) noexcept {
   return value < 0.0 ? answer({Errc::out_of_range, index, value, 0.0}) : answer(PLUMB_OK);
 }
 
-plumb_error check(const plumb_triad_bounds* b, double rate_radps) noexcept {
+plumb_error check_bounds(const plumb_triad_bounds* b, double rate_radps) noexcept {
   plumb_error e = check_struct(b, 0);
   if (e.code != PLUMB_OK) return e;
   const double values[] = {b->scale, b->axis_rad, b->bias_radps, b->noise_radps, b->noise_in_sigmas, rate_radps};
@@ -160,26 +160,26 @@ plumb_error plumb_rates_init(void* storage, size_t storage_size, const plumb_rat
   if (e.code == PLUMB_OK) e = read_array(config->axis, config->axes, &plumb_gyro_axis::sigma_radps, 2, array);
   if (e.code != PLUMB_OK) return e;
   auto* made = new (storage) plumb_rates;
-  e = answer(made->monitor.configure(array, setup_of(*config)));
+  e = answer(made->monitor.configure(array, rate_setup_of(*config)));
   if (e.code != PLUMB_OK) return e;
-  made->alive = kAlive;
+  made->alive = kRatesAlive;
   *rates = made;
   return e;
 }
 
 plumb_error plumb_rates_step(plumb_rates* rates, const plumb_rates_sample* sample,
                              plumb_rates_verdict* verdict) noexcept {
-  plumb_error e = check_alive(rates, kAlive, 0);
+  plumb_error e = check_alive(rates, kRatesAlive, 0);
   if (e.code == PLUMB_OK) e = check_struct(sample, 1);
   if (e.code == PLUMB_OK && verdict != nullptr) e = check_struct(verdict, 2);
-  if (e.code != PLUMB_OK) return without_verdict(e, verdict);
+  if (e.code != PLUMB_OK) return without_rates(e, verdict);
   const RateVerdict& found = rates->monitor.step(sample_of(*sample));
   if (verdict != nullptr) *verdict = verdict_of(found);
   return e;
 }
 
 plumb_error plumb_rates_forget(plumb_rates* rates) noexcept {
-  const plumb_error e = check_alive(rates, kAlive, 0);
+  const plumb_error e = check_alive(rates, kRatesAlive, 0);
   if (e.code == PLUMB_OK) rates->monitor.forget();
   return e;
 }
@@ -224,7 +224,7 @@ plumb_error plumb_triad_bounds_defaults(plumb_triad_bounds* bounds) noexcept {
 plumb_error plumb_median_error(const plumb_triad_bounds* bounds, double rate_radps, double* error_radps) noexcept {
   if (error_radps == nullptr) return missing(2);
   *error_radps = kNoLimit;
-  const plumb_error e = check(bounds, rate_radps);
+  const plumb_error e = check_bounds(bounds, rate_radps);
   if (e.code != PLUMB_OK) return e;
   const GyroErrors triad{bounds->scale, bounds->axis_rad, bounds->bias_radps, bounds->noise_radps, 0.0};
   *error_radps = median_error_radps(triad, rate_radps, bounds->noise_in_sigmas);

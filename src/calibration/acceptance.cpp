@@ -8,8 +8,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 constexpr double kTogether = 2.0;
 
 Judgement refuse(Concern concern, Errc code, int index, double value, double limit) noexcept {

@@ -352,8 +352,8 @@ namespace {
   out = {{}, {}, figures.rank, figures.degrees_of_freedom, figures.chi2, figures.p_value};
   const double sign = datasheet.reads == Reads::gravity ? 1.0 : -1.0;
   for (int i = 0; i < datasheet.size; ++i) {
-    out.length[fit::at(i)] = norm(fit::row_of(theta, i));
-    out.bias_mps2[fit::at(i)] = sign * theta[fit::at(4 * i + 3)];
+    out.length[at(i)] = norm(fit::row_of(theta, i));
+    out.bias_mps2[at(i)] = sign * theta[at(4 * i + 3)];
   }
 }
 

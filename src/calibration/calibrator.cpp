@@ -9,8 +9,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 using namespace fit::limits;
 
 /// A frozen parameter that is zero has neither size nor prior to measure its rounding by.
@@ -41,7 +39,7 @@ bool fit::all_free(const Datasheet& datasheet) noexcept {
 
 namespace {
 
-double squared_length(const fit::Parameters& v, int n) noexcept {
+double squared_norm(const fit::Parameters& v, int n) noexcept {
   double sum = 0.0;
   for (int k = 0; k < n; ++k) sum += v[at(k)] * v[at(k)];
   return sum;
@@ -256,7 +254,7 @@ bool Calibrator::step_from(const fit::Problem& problem, const fit::Parameters& n
                                                   : fit::Loss::squares;
   const double variance = misfit_mps2_ * misfit_mps2_;
   fit::Sums sums = fit::accumulate(problem, natural, variance, loss, blocks, rhs, room);
-  const double cost = sums.chi2 + squared_length(theta_, 4 * datasheet_.size);
+  const double cost = sums.chi2 + squared_norm(theta_, 4 * datasheet_.size);
   const bool finite = sums.finite && std::isfinite(cost);
   const bool down = goes_down(cost, finite);
   if (fresh_ && !finite) {

@@ -23,7 +23,7 @@ constexpr double kFeigned = 4.0;  ///< noise feigns about its own variance where
 constexpr double kFlattest = 1e-2;
 constexpr int kTurns = 30;  ///< a few are usual
 
-struct Moments {
+struct EllipsoidMoments {
   int stations = 0;
   double variance = 0.0;  ///< of x, all directions together, sum over the stations
   std::array<double, std::size_t{kUnknowns} * kUnknowns> normal{};
@@ -35,7 +35,7 @@ struct Moments {
 };
 
 /// Readings and vectors in units of gravity.
-void add(const StationSolver& s, double g_mps2, Moments& m) noexcept {
+void add(const StationSolver& s, double g_mps2, EllipsoidMoments& m) noexcept {
   const double share = 1.0 / g_mps2;
   const Vec3 x = scaled(s.estimate, share);
   const std::array<double, kUnknowns> f = {x[0] * x[0] - x[2] * x[2],
@@ -70,7 +70,7 @@ struct Ellipsoid {
   Symmetric3 radius{};
 };
 
-Ellipsoid ellipsoid_of(Moments& m) noexcept {
+Ellipsoid ellipsoid_of(EllipsoidMoments& m) noexcept {
   Ellipsoid out;
   std::array<double, kUnknowns> diagonal{};
   for (int k = 0; k < kUnknowns; ++k) diagonal[at(k)] = m.normal[at(k * kUnknowns + k)];
@@ -106,7 +106,7 @@ bool closed_form(const Problem& problem, Parameters& theta) noexcept {
   const int n = datasheet.size;
   const Parameters nominal = datasheet_parameters(datasheet);
   StationSolver solver(problem, nominal, 0.0);
-  Moments m;
+  EllipsoidMoments m;
   for (int s = 0; s < problem.count; ++s) {
     const Loaded loaded = solver.read(problem.stations[s]);
     if (loaded == Loaded::not_finite) return false;

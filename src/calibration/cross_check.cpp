@@ -11,8 +11,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 /// Variance of a weighted sum of the readings: noise of the mean, misfit, covariance of the fit.
 double variance_of(const SensorArray& array, SensorSet used, const std::array<double, kCapacity>& weight,
                    const Vec3& gravity_mps2, double samples) noexcept {

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "plumb/calibration/calibration.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/numeric/cholesky.hpp"
 
 namespace plumb {
@@ -16,8 +17,6 @@ inline namespace PLUMB_ABI {
 namespace fit {
 
 using Parameters = std::array<double, kFitParameters>;
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Eqs (1) and (2): c0 + c1 t + c2 t^2 + c3 t^3.
 inline double cubic(const std::array<double, 4>& c, double t) noexcept {

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Residuals that noise alone explains with at least this probability.
 constexpr double kSuspicious = 1e-3;
 
@@ -215,9 +216,6 @@ void note_common_scale(const Datasheet& datasheet, const Parameters& theta, FitF
 }
 
 namespace {
-
-/// By chi^2, the worse explanation of two is as good as none: the odds are 1000 to 1.
-constexpr double kSeparable = 13.8;
 
 /// Squared deviations from the datasheet in prior sigmas, but those of `left_out`.
 double prior_chi2(const Datasheet& datasheet, const Parameters& theta, int left_out) noexcept {

@@ -7,6 +7,9 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
 
+/// By chi^2: what explains worse by this much, at odds of 1000 to 1, is no explanation beside the best.
+inline constexpr double kSeparable = 13.8;
+
 struct Fitted {
   explicit Fitted(Harmonics* harmonics) noexcept : tally(harmonics) {}
   Parameters theta{};

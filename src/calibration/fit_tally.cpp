@@ -10,9 +10,6 @@ inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
 
-/// Below this part of its weight a row has no residual of its own: it is wanted for the vector.
-constexpr double kOwnResidual = 1e-6;
-
 /// A ratio of variances with fewer degrees of freedom below the line is chance.
 constexpr double kRestFreedom = 10.0;
 

@@ -16,14 +16,9 @@ namespace {
 constexpr double kChance = 1e-4;
 /// Stations beyond one a level that tell how much a sensor scatters within its levels.
 constexpr double kScatterFreedom = 10.0;
-/// A row below this part of its weight has no residual of its own.
-constexpr double kOwnResidual = 1e-6;
 
 /// Of the outlier limit. With the whole of it 2 % of healthy recordings with 5 % spikes are refused, with half none.
 constexpr double kVote = 0.5;
-
-/// By chi^2: what explains worse by this much, at odds of 1000 to 1, is no explanation beside the best.
-constexpr double kSeparable = 13.8;
 
 struct Means {
   std::array<double, kCapacity> pull{}, weight{}, square{};

@@ -1,9 +1,10 @@
 /// Sums over the stations: projected information about (W, b) with the direction of gravity eliminated.
-#include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 #include "fit_internal.hpp"
 #include "fit_tally.hpp"
+#include "plumb/numeric/detail/add_scaled.hpp"
 #include "station_solver.hpp"
 
 namespace plumb {
@@ -16,13 +17,11 @@ constexpr int pair_of(int i, int j) noexcept { return i * (i + 1) / 2 + j; }
 /// Where entry (p, q) of a 4x4 block stands among the ten moments.
 constexpr std::array<int, 16> kMoment = {0, 1, 2, 3, 1, 4, 5, 6, 2, 5, 7, 8, 3, 6, 8, 9};
 
-using Moments = Eigen::Array<double, kMomentCount, 1>;
+using Moments = std::array<double, kMomentCount>;
 
 Moments moments_of(const Vec3& g, double weight) noexcept {
   const double x = weight * g[0], y = weight * g[1], z = weight * g[2];
-  Moments out;
-  out << x * g[0], x * g[1], x * g[2], x, y * g[1], y * g[2], y, z * g[2], z, weight;
-  return out;
+  return {x * g[0], x * g[1], x * g[2], x, y * g[1], y * g[2], y, z * g[2], z, weight};
 }
 
 /// Inclination, in its own standard deviations, at which a roll row has lost half of its weight.
@@ -98,7 +97,7 @@ void add_roll(const StationSolver& s, const RollRow& row, double pull, RollGroup
     const double slope = roll.weight * roll.slope[at(k)];
     for (int l = 0; l <= k; ++l) {
       const double m = s.projector(k, l) + slope * roll.slope[at(l)];
-      Eigen::Map<Moments>(blocks + at(kMomentCount * pair_of(i, s.sensor[at(l)]))) += m * moments;
+      add_scaled<kMomentCount>(blocks + at(kMomentCount * pair_of(i, s.sensor[at(l)])), moments.data(), m);
     }
   }
 }

@@ -11,8 +11,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 constexpr int kBasis = kMaxNullDirections + 3;  // and three rotations
 /// A combination counts as made of some values if these carry this part of its square: the fitted axes lie a few
 /// degrees beside the nominal ones, so "scale" and "axis" are distinguished no better.
@@ -42,7 +40,7 @@ Vec3 part_of(const Datasheet& datasheet, const fit::Parameters& v, int kind, int
 using Coefficients = std::array<double, kBasis>;
 using Square = std::array<double, std::size_t{kBasis} * kBasis>;
 
-double inner(const Coefficients& a, const Coefficients& b, int m) noexcept {
+double inner_product(const Coefficients& a, const Coefficients& b, int m) noexcept {
   double sum = 0.0;
   for (int k = 0; k < m; ++k) sum += a[at(k)] * b[at(k)];
   return sum;
@@ -156,7 +154,7 @@ class Search {
     Square form{}, mix{};
     Coefficients values{};
     for (int a = 0; a < columns; ++a) {
-      for (int b = 0; b < columns; ++b) form[at(a * kBasis + b)] = inner(rest[at(a)], rest[at(b)], size_);
+      for (int b = 0; b < columns; ++b) form[at(a * kBasis + b)] = inner_product(rest[at(a)], rest[at(b)], size_);
     }
     if (!symmetric_eigen(form.data(), columns, kBasis, values.data(), mix.data())) return false;
     if (!(values[at(columns - 1)] > kNew)) return false;
@@ -167,7 +165,7 @@ class Search {
     }
     write(member);
     remove_known(member);
-    const double length = std::sqrt(inner(member, member, size_));
+    const double length = std::sqrt(inner_product(member, member, size_));
     for (int k = 0; k < size_; ++k) found_[at(known_)][at(k)] = member[at(k)] / length;
     ++known_;
     return true;
@@ -175,7 +173,7 @@ class Search {
 
   void remove_known(Coefficients& c) const noexcept {
     for (int k = 0; k < known_; ++k) {
-      const double shared = inner(c, found_[at(k)], size_);
+      const double shared = inner_product(c, found_[at(k)], size_);
       for (int l = 0; l < size_; ++l) c[at(l)] -= shared * found_[at(k)][at(l)];
     }
   }

@@ -12,8 +12,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 /// The grid: inclinations from 0 to 180 deg, toolfaces all around, the two verticals once each.
 constexpr int kInclinationSteps = 12;
 constexpr int kToolfaceSteps = 12;
@@ -54,7 +52,7 @@ double take_out(std::array<double, kCapacity>& v, const std::array<double, kCapa
   return square;
 }
 
-double squared_length(const std::array<double, kCapacity>& v, int n) noexcept {
+double squared_row_length(const std::array<double, kCapacity>& v, int n) noexcept {
   double square = 0.0;
   for (int k = 0; k < n; ++k) square += v[at(k)] * v[at(k)];
   return square;
@@ -92,7 +90,7 @@ Across across_of(const Datasheet& datasheet, const SeenAttitude& attitude) noexc
       const Vec3& h = datasheet.sensor[at(out.sensor[at(k)])].row.axis;
       v[at(k)] = c < 2 ? out.root_weight[at(k)] * dot(h, tangent[at(c)]) : (k == c - 2 ? 1.0 : 0.0);
     }
-    const double square = squared_length(v, n);
+    const double square = squared_row_length(v, n);
     if (!(square > 1e-18) || !std::isfinite(square)) return Across{};  // samples of no weight, or beyond all numbers
     normalise(v, n, square);
     double left = 1.0;
@@ -103,7 +101,7 @@ Across across_of(const Datasheet& datasheet, const SeenAttitude& attitude) noexc
       if (c < 2) return Across{};  // the sensors see one tangent only: no direction
       continue;
     }
-    normalise(v, n, squared_length(v, n));
+    normalise(v, n, squared_row_length(v, n));
     basis[at(size++)] = v;
   }
   out.rows = size - 2;

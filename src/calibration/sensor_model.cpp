@@ -5,12 +5,11 @@
 #include <limits>
 
 #include "fit_internal.hpp"
+#include "plumb/core/detail/numbers.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// A pivot below this times the largest entry of I - M is taken for zero.
 constexpr double kPivotTolerance = 1e-12;
@@ -43,7 +42,7 @@ double largest_entry(CrossSystem& s) noexcept {
 }
 
 /// Gauss elimination with row pivots, solution left in b; false where I - M has no inverse.
-bool solve(CrossSystem& s) noexcept {
+bool solve_cross(CrossSystem& s) noexcept {
   const double smallest = kPivotTolerance * largest_entry(s);
   for (int c = 0; c < s.n; ++c) {
     int best = c;
@@ -125,7 +124,7 @@ Expected<std::array<double, kCapacity>> SensorModel::raw_from(const Readings& ac
     }
     system.b[at(i)] = sign * accel_mps2[at(i)];
   }
-  if (!solve(system)) return fail(Errc::not_invertible);
+  if (!solve_cross(system)) return fail(Errc::not_invertible);
   std::array<double, kCapacity> raw{};
   for (int i = 0; i < size; ++i) {
     raw[at(i)] = scale_at(i, temperature_degc) * (system.b[at(i)] + bias_at(i, temperature_degc));

@@ -7,7 +7,6 @@ inline namespace PLUMB_ABI {
 
 StationResidual station_residual(const Calibration& calibration, const GravityReference& gravity,
                                  const Station& station) noexcept {
-  using fit::at;
   StationResidual out;
   const int n = calibration.array.size();
   const SensorSet delivered = station.delivered & calibration.array.all();

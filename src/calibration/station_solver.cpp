@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
@@ -17,7 +19,6 @@ constexpr double kDirectionStop = 1e-8;
 constexpr double kIndependent = 1e-6;
 
 const Parameters kNoParameters{};
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

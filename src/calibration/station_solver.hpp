@@ -8,6 +8,9 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
 
+/// Below this part of its weight a row has no residual of its own: it is wanted for the vector.
+inline constexpr double kOwnResidual = 1e-6;
+
 enum class Loaded : std::uint8_t { used, skipped, not_finite };
 
 /// Channels of a station that the fit may use: delivered, and inside the full scale where the datasheet knows it.

@@ -38,7 +38,7 @@ void without_rotation(const Joint& joint, const Parameters& theta, double* v, in
 }
 
 /// A covariance in prior units to natural ones, the rotation taken out.
-void to_natural(const Joint& joint, const Parameters& theta, double* c) noexcept {
+void joint_to_natural(const Joint& joint, const Parameters& theta, double* c) noexcept {
   const int size = joint.parameters();
   for (int k = 0; k < size; ++k) {
     times_prior(joint, c + k, size);
@@ -51,7 +51,8 @@ void to_natural(const Joint& joint, const Parameters& theta, double* c) noexcept
 }
 
 /// Variance of a combination of one sensor's parameters.
-double variance_of(const std::array<double, kJointPerSensor>& by, const double* block, int per, int size) noexcept {
+double joint_variance_of(const std::array<double, kJointPerSensor>& by, const double* block, int per,
+                         int size) noexcept {
   double sum = 0.0;
   for (int p = 0; p < per; ++p) {
     for (int q = 0; q < per; ++q) sum += by[at(p)] * block[p * size + q] * by[at(q)];
@@ -91,12 +92,12 @@ void note_coefficients(const JointAnalysis& a, const double* prior, const double
       by_scale[at(2 + 2 * j)] = nominal * length * power;
       by_bias[at(3 + 2 * j)] = power / length;
     }
-    const double scale_variance = variance_of(by_scale, posterior_ + corner, per, size);
-    const double bias_variance = variance_of(by_bias, posterior_ + corner, per, size);
+    const double scale_variance = joint_variance_of(by_scale, posterior_ + corner, per, size);
+    const double bias_variance = joint_variance_of(by_bias, posterior_ + corner, per, size);
     out.scale[k] = {nominal * length * scale_powers[k], std::sqrt(scale_variance),
-                    share_of(scale_variance, variance_of(by_scale, prior + corner, per, size))};
+                    share_of(scale_variance, joint_variance_of(by_scale, prior + corner, per, size))};
     out.bias[k] = {joint.sign * bias_powers[k] / length, std::sqrt(bias_variance),
-                   share_of(bias_variance, variance_of(by_bias, prior + corner, per, size))};
+                   share_of(bias_variance, joint_variance_of(by_bias, prior + corner, per, size))};
   }
 }
 
@@ -107,7 +108,7 @@ bool to_posterior(const Joint& joint, const Parameters& theta, double* informati
   for (int k = 0; k < size; ++k) information[k * size + k] += 1.0;
   if (!cholesky_factor(information, size, size)) return false;
   cholesky_inverse(information, size, size);
-  to_natural(joint, theta, information);
+  joint_to_natural(joint, theta, information);
   return true;
 }
 
@@ -120,7 +121,7 @@ bool analyse(const JointAnalysis& a, TemperatureWork& work, TemperatureReport& r
   if (!to_posterior(joint, a.state.theta, information)) return false;
   for (int k = 0; k < size * size; ++k) prior[k] = 0.0;
   for (int k = 0; k < size; ++k) prior[k * size + k] = 1.0;
-  to_natural(joint, a.state.theta, prior);
+  joint_to_natural(joint, a.state.theta, prior);
   for (int i = 0; i < joint.sensors(); ++i) {
     note_coefficients(a, prior, information, i, report.sensor[at(i)]);
     for (int p = 0; p < 4; ++p) {

@@ -12,7 +12,7 @@ namespace fit {
 namespace {
 
 /// Temperatures at which the span is looked at: a variance is of degree 6 in the temperature.
-constexpr int kGrid = 13;
+constexpr int kTemperatureGrid = 13;
 /// Rotations carry no variance but rounding, of either sign; this part of the diagonal, or ten times as much where that
 /// is not enough, stands above it. It goes into the result, so that what covers the rest covers them too.
 constexpr double kRidge = 1e-7;
@@ -188,15 +188,17 @@ double covering_covariance(const Joint& joint, const JointState& state, const Ch
   double* const mean = work.vectors.data();
   double* const factor = mean + size;
   double* const one = factor + size;
-  const auto temperature = [&span](int k) { return span.lowest + (span.highest - span.lowest) * k / (kGrid - 1.0); };
+  const auto temperature = [&span](int k) {
+    return span.lowest + (span.highest - span.lowest) * k / (kTemperatureGrid - 1.0);
+  };
   for (std::size_t k = 0; k < size; ++k) mean[k] = 0.0;
-  for (int g = 0; g < kGrid; ++g) {
+  for (int g = 0; g < kTemperatureGrid; ++g) {
     covariance_at(joint, state, work.information.data(), temperature(g), one);
-    for (std::size_t k = 0; k < size; ++k) mean[k] += one[k] / kGrid;
+    for (std::size_t k = 0; k < size; ++k) mean[k] += one[k] / kTemperatureGrid;
   }
   if (!factor_of(mean, m, factor)) return 0.0;
   double inflation = 1.0;
-  for (int g = 0; g < kGrid; ++g) {
+  for (int g = 0; g < kTemperatureGrid; ++g) {
     covariance_at(joint, state, work.information.data(), temperature(g), one);
     const double ratio = largest_ratio(factor, m, one);
     if (!(ratio > 0.0)) return 0.0;

@@ -10,14 +10,14 @@ inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
 
-using Columns = std::array<double, kJointPerSensor>;
+using JointColumns = std::array<double, kJointPerSensor>;
 
 /// Minus the derivative of the residual of one sensor by its parameters, in prior units. That of s_j is
 /// (W g + b + beta) T_j / s: by the model, not by the noisy reading, which would feign information.
-Columns columns_of(const Joint& joint, const JointState& state, int i, const Vec3& g, const Cubic& t) noexcept {
+JointColumns columns_of(const Joint& joint, const JointState& state, int i, const Vec3& g, const Cubic& t) noexcept {
   const PriorRoot& root = joint.roots[at(i)];
   const Vec3 axes = times(root.axes, g);
-  Columns out{axes[0], axes[1], axes[2], root.bias};
+  JointColumns out{axes[0], axes[1], axes[2], root.bias};
   const Cubic &s = state.scale[at(i)], &b = state.bias[at(i)];
   double scale = 0.0, reading = dot(row_of(state.theta, i), g) + state.theta[at(4 * i + 3)];
   for (std::size_t k = 0; k < t.size(); ++k) {
@@ -32,11 +32,11 @@ Columns columns_of(const Joint& joint, const JointState& state, int i, const Vec
 }
 
 /// Adds M (x) z z' and (M e) (x) z, M the projector across the tangents of the sphere.
-void add_station(const Joint& joint, const JointState& state, const StationSolver& s, double temperature_degc,
-                 double pull, double* information, JointVector& rhs) noexcept {
+void add_joint_station(const Joint& joint, const JointState& state, const StationSolver& s, double temperature_degc,
+                       double pull, double* information, JointVector& rhs) noexcept {
   const int per = joint.per_sensor(), size = joint.parameters();
   const Cubic t = chebyshev_values(joint.use_degc.scaled(temperature_degc));
-  std::array<Columns, kCapacity> z{};
+  std::array<JointColumns, kCapacity> z{};
   for (int k = 0; k < s.rows; ++k) {
     const int i = s.sensor[at(k)];
     z[at(k)] = columns_of(joint, state, i, s.gravity, t);
@@ -71,7 +71,7 @@ void accumulate(const Joint& joint, const JointState& state, const Problem& redu
       return;
     }
     const double pull = pull_of(loss, solver.chi2, solver.freedom());
-    add_station(joint, state, solver, station.temperature_degc, pull, information, out.rhs);
+    add_joint_station(joint, state, solver, station.temperature_degc, pull, information, out.rhs);
     note_station(solver, pull, out.sums);
     if (tally != nullptr) tally->add(solver, reduced.g_mps2);
   }

@@ -10,8 +10,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-using fit::at;
-
 /// Temperatures at which the shape of a scale factor is looked at.
 constexpr int kShapePoints = 14;
 /// A tool whose temperature follows from its inclination this well has no second variable.

@@ -2,12 +2,11 @@
 #include <cmath>
 
 #include "plumb/calibration/temperature_fit.hpp"
+#include "plumb/core/detail/numbers.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr double kStep_degc = 5.0;
 constexpr int kMostSteps = 400;

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Chebyshev amplitude, over the span, of a coefficient of the k-th power: T_k leads with 2^(k-1).
 double amplitude(double coefficient, double half_width, int k) noexcept {

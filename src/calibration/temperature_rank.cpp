@@ -17,14 +17,14 @@ using Rotations = std::array<JointVector, 3>;
 
 /// An entry below this part of a null direction is no handle to tell it from the others by.
 constexpr double kPivot = 0.02;
-double inner(const JointVector& a, const JointVector& b, int size) noexcept {
+double joint_inner(const JointVector& a, const JointVector& b, int size) noexcept {
   double sum = 0.0;
   for (int k = 0; k < size; ++k) sum += a[at(k)] * b[at(k)];
   return sum;
 }
 
 /// The common rotations in prior units, orthonormal.
-Rotations gauge_basis(const Joint& joint, const Parameters& theta) noexcept {
+Rotations joint_gauge_basis(const Joint& joint, const Parameters& theta) noexcept {
   Rotations out{};
   const int n = joint.sensors(), size = joint.parameters();
   for (int q = 0; q < 3; ++q) {
@@ -41,16 +41,16 @@ Rotations gauge_basis(const Joint& joint, const Parameters& theta) noexcept {
       for (int p = 0; p < 3; ++p) v[at(joint.per_sensor() * i + p)] = x[at(4 * i + p)];
     }
     for (int r = 0; r < q; ++r) {
-      const double shared = inner(out[at(r)], v, size);
+      const double shared = joint_inner(out[at(r)], v, size);
       for (int k = 0; k < size; ++k) v[at(k)] -= shared * out[at(r)][at(k)];
     }
-    const double length = std::sqrt(inner(v, v, size));
+    const double length = std::sqrt(joint_inner(v, v, size));
     for (int k = 0; k < size && length > 0.0; ++k) v[at(k)] /= length;
   }
   return out;
 }
 
-double information_along(const double* information, const JointVector& v, int size) noexcept {
+double joint_information_along(const double* information, const JointVector& v, int size) noexcept {
   double sum = 0.0;
   for (int i = 0; i < size; ++i) {
     for (int j = 0; j < size; ++j) sum += v[at(i)] * information[i * size + j] * v[at(j)];
@@ -229,7 +229,7 @@ int count_above(const JointVector& values, int size, double floor) noexcept {
   return rank;
 }
 
-void mirror(double* m, int size) noexcept {
+void mirror_joint(double* m, int size) noexcept {
   for (int i = 0; i < size; ++i) {
     for (int j = 0; j < i; ++j) m[j * size + i] = m[i * size + j];
   }
@@ -252,7 +252,7 @@ bool note_condition(const JointAnalysis& a, TemperatureWork& work, TemperatureRe
   for (int i = 0; i < size; ++i) {
     for (int j = 0; j <= i; ++j) matrix[i * size + j] = unit[at(i)] * work.information[at(i * size + j)] * unit[at(j)];
   }
-  mirror(matrix, size);
+  mirror_joint(matrix, size);
   JointVector values{};
   if (!symmetric_eigenvalues(matrix, size, size, values.data())) return false;
   const double least = report.rank > 0 ? values[at(size - report.rank)] : 0.0;
@@ -276,10 +276,10 @@ bool find_rank(const JointAnalysis& a, TemperatureWork& work, TemperatureReport&
   const Problem problem = {joint.sheet, a.g_mps2, {a.scratch, a.count}, a.count, {}, nullptr};
   accumulate(joint, basis.state, problem, a.misfit_variance, Loss::squares, matrix, sums);
   reduce_all(a.joint, a.state, a.stations, a.count, a.scratch);
-  mirror(matrix, size);
-  const Rotations gauge = gauge_basis(joint, basis.state.theta);
+  mirror_joint(matrix, size);
+  const Rotations gauge = joint_gauge_basis(joint, basis.state.theta);
   Vec3 along{};
-  for (int q = 0; q < 3; ++q) along[at(q)] = information_along(matrix, gauge[at(q)], size);
+  for (int q = 0; q < 3; ++q) along[at(q)] = joint_information_along(matrix, gauge[at(q)], size);
   JointVector values{};
   for (int k = 0; k < size * size; ++k) copy[k] = matrix[k];
   if (!symmetric_eigenvalues(copy, size, size, values.data())) return false;

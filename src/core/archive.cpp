@@ -46,7 +46,7 @@ std::int64_t sign_extended(std::uint64_t bits, std::size_t width) noexcept {
 }
 
 /// The exponent is not that of an infinity or of no number.
-bool finite(std::uint64_t bits, std::size_t width) noexcept {
+bool finite_bits(std::uint64_t bits, std::size_t width) noexcept {
   constexpr std::uint64_t kDouble = 0x7FF0'0000'0000'0000ULL, kFloat = 0x7F80'0000ULL;
   const std::uint64_t exponent = width == sizeof(double) ? kDouble : kFloat;
   return (bits & exponent) != exponent;
@@ -75,7 +75,7 @@ std::uint64_t Archive::get_bits(std::size_t width) noexcept {
 
 bool Archive::accepts(std::uint64_t bits, ScalarForm form, const Within* range) const noexcept {
   switch (form.kind) {
-    case ScalarForm::Kind::real: return finite(bits, form.width);
+    case ScalarForm::Kind::real: return finite_bits(bits, form.width);
     case ScalarForm::Kind::set: return SensorSet::first(sensors_).contains(SensorSet(static_cast<std::uint32_t>(bits)));
     case ScalarForm::Kind::flag: return bits <= 1;
     case ScalarForm::Kind::ranged: {

@@ -7,12 +7,12 @@ using storage_detail::word_at;
 
 namespace {
 
-/// Two words side by side, in a register that every x86-64 and every ARMv8 has (vectors of GCC and Clang).
-using Two = std::uint64_t __attribute__((vector_size(16)));
+/// TwoWords words side by side, in a register that every x86-64 and every ARMv8 has (vectors of GCC and Clang).
+using TwoWords = std::uint64_t __attribute__((vector_size(16)));
 constexpr bool kVectors = sizeof(void*) >= 8;
 
-Two two_at(const unsigned char* from) noexcept {
-  Two out;
+TwoWords two_at(const unsigned char* from) noexcept {
+  TwoWords out;
   std::memcpy(&out, from, sizeof out);
   return out;
 }
@@ -22,7 +22,7 @@ Two two_at(const unsigned char* from) noexcept {
 std::uint64_t sum_of_bytes(const unsigned char* from, std::size_t size) noexcept {
   std::uint64_t sum = 0;
   if constexpr (kVectors) {
-    Two a{}, b{};
+    TwoWords a{}, b{};
     for (; size >= 64; size -= 64, from += 64) {
       a += two_at(from) + two_at(from + 16);
       b += two_at(from + 32) + two_at(from + 48);
@@ -71,7 +71,7 @@ struct Halves {
   std::uint64_t word() const noexcept { return std::uint64_t{high} << 32U | low; }
 };
 
-/// Two functions, or the processor has not registers enough for the first loop.
+/// TwoWords functions, or the processor has not registers enough for the first loop.
 [[gnu::noinline]] std::uint64_t sum_of_stretches(const unsigned char* object, const StoragePlan& plan) noexcept {
   Halves sum;
   for (std::size_t k = 0; k < plan.stretches; ++k) {

@@ -14,7 +14,7 @@ namespace {
 using archive_detail::bits_of;
 using std::size_t;
 
-constexpr size_t packed(int i, int j) noexcept {
+constexpr size_t packed_pair(int i, int j) noexcept {
   const auto hi = static_cast<size_t>(i > j ? i : j);
   const auto lo = static_cast<size_t>(i > j ? j : i);
   return hi * (hi + 1) / 2 + lo;
@@ -220,7 +220,8 @@ bool BlockAccumulator::plausible() const noexcept {
     constexpr double kRounded = kSingle ? 1.0 + 1e-5 : 1.0;
     if (!(std::fabs(static_cast<double>(sum_[static_cast<size_t>(i)])) <= kRounded * most * present)) return false;
     for (int j = 0; j <= i; ++j) {
-      if (!(std::fabs(static_cast<double>(product_[packed(i, j)])) <= kRounded * most * most * size_)) return false;
+      if (!(std::fabs(static_cast<double>(product_[packed_pair(i, j)])) <= kRounded * most * most * size_))
+        return false;
     }
   }
   // Every sample adds between 2^-32 and 1.
@@ -232,7 +233,7 @@ double BlockAccumulator::covariance(int i, int j) const noexcept {
   const int least = std::min(present_[static_cast<size_t>(i)], present_[static_cast<size_t>(j)]);
   if (least < 2) return 0.0;
   const double n = least;
-  const auto both = static_cast<double>(product_[packed(i, j)]);
+  const auto both = static_cast<double>(product_[packed_pair(i, j)]);
   const auto a = static_cast<double>(sum_[static_cast<size_t>(i)]),
              b = static_cast<double>(sum_[static_cast<size_t>(j)]);
   return (both - a * b / n) / (n - 1.0);

@@ -2,13 +2,11 @@
 
 #include <cmath>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
-namespace {
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 const char* to_string(DipVerdict verdict) noexcept {
   switch (verdict) {
@@ -23,9 +21,9 @@ const char* to_string(DipVerdict verdict) noexcept {
 
 /// What this station allows of sensor i, and the stations before if its bias is constant.
 FaultRanges DipEvidence::shifts(const DipJudgement& station, int i) const noexcept {
-  const DipHypothesis& h = station.faulty[index(i)];
+  const DipHypothesis& h = station.faulty[at(i)];
   if (assumption_ == DipAssumption::any_fault) return h.shift;
-  return h.shift.with(bias_[index(i)].widened(h.margin_mps2));
+  return h.shift.with(bias_[at(i)].widened(h.margin_mps2));
 }
 
 void DipEvidence::take_up(const DipJudgement& station) noexcept {
@@ -37,10 +35,9 @@ void DipEvidence::take_up(const DipJudgement& station) noexcept {
   faultless_ = faultless_ && station.none.consistent();
   for (int i = 0; i < kCapacity; ++i) {
     if (!suspects_.has(i)) continue;
-    const DipHypothesis& h = station.faulty[index(i)];
-    if (assumption_ == DipAssumption::constant_bias)
-      bias_[index(i)] = first ? h.fault() : h.fault().with(bias_[index(i)]);
-    const bool possible = assumption_ == DipAssumption::any_fault || !bias_[index(i)].empty();
+    const DipHypothesis& h = station.faulty[at(i)];
+    if (assumption_ == DipAssumption::constant_bias) bias_[at(i)] = first ? h.fault() : h.fault().with(bias_[at(i)]);
+    const bool possible = assumption_ == DipAssumption::any_fault || !bias_[at(i)].empty();
     if (!h.consistent() || !possible) suspects_ = suspects_.without(i);
   }
   if (stations_ < kMostStations) ++stations_;
@@ -55,9 +52,9 @@ void DipEvidence::bound(const DipJudgement& station, DipAnswer& answer) const no
     if (!suspects_.has(i)) continue;
     const FaultRanges left = shifts(station, i);
     for (int k = 0; k < left.count; ++k) {
-      for (const double t : {left.range[index(k)].low_mps2, left.range[index(k)].high_mps2}) {
-        const Vec3 end = minus(station.x_mps2, scaled(station.column[index(i)], t));
-        worst = std::fmax(worst, angle_between_rad(answer.gravity_mps2, end) + station.faulty[index(i)].turn_rad);
+      for (const double t : {left.range[at(k)].low_mps2, left.range[at(k)].high_mps2}) {
+        const Vec3 end = minus(station.x_mps2, scaled(station.column[at(i)], t));
+        worst = std::fmax(worst, angle_between_rad(answer.gravity_mps2, end) + station.faulty[at(i)].turn_rad);
         any = true;
       }
     }
@@ -70,8 +67,8 @@ void DipEvidence::name(const DipJudgement& station, DipAnswer& answer) const noe
   answer.named = suspects_.lowest();
   const FaultRanges left = shifts(station, answer.named);
   if (left.empty()) return;
-  const double middle = 0.5 * (left.range[0].low_mps2 + left.range[index(left.count - 1)].high_mps2);
-  answer.gravity_mps2 = minus(station.x_mps2, scaled(station.column[index(answer.named)], middle));
+  const double middle = 0.5 * (left.range[0].low_mps2 + left.range[at(left.count - 1)].high_mps2);
+  answer.gravity_mps2 = minus(station.x_mps2, scaled(station.column[at(answer.named)], middle));
 }
 
 DipAnswer DipEvidence::add(const DipJudgement& station) noexcept {
@@ -85,7 +82,7 @@ DipAnswer DipEvidence::add(const DipJudgement& station) noexcept {
   out.gravity_mps2 = station.x_mps2;
   for (int i = 0; i < kCapacity; ++i) {
     if (!suspects_.has(i)) continue;
-    const FaultRanges possible = shifts(station, i).widened(station.faulty[index(i)].margin_mps2);
+    const FaultRanges possible = shifts(station, i).widened(station.faulty[at(i)].margin_mps2);
     if (possible.count > 1 || (possible.count == 1 && !possible.has(0.0))) out.mirrors = out.mirrors.with(i);
   }
   if (faultless_) {

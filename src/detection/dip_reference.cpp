@@ -3,14 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-
 /// Limits are wider by so much, relative to what they are about: rounding, and the ends of a range that is a point.
-constexpr double kRounding = 1e-9;
+constexpr double kDipRounding = 1e-9;
 constexpr double kHalfTurn_rad = 0.5 * kPi;
 
 /// What a station states, as intervals.
@@ -22,25 +22,24 @@ struct Bounds {
   Vec3 along{};  ///< the field's direction
 };
 
-bool finite(const Vec3& v) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-bool finite(const ErrorOf& e) noexcept { return std::isfinite(e.sigma) && std::isfinite(e.bound); }
+bool all_finite(const ErrorOf& e) noexcept { return std::isfinite(e.sigma) && std::isfinite(e.bound); }
 bool negative(const ErrorOf& e) noexcept { return e.sigma < 0.0 || e.bound < 0.0; }
 
-bool finite(const DipStation& s, int sensors) noexcept {
+bool all_finite(const DipStation& s, int sensors) noexcept {
   for (int i = 0; i < sensors; ++i) {
-    const std::size_t k = index(i);
+    const std::size_t k = at(i);
     if (!s.used.has(i)) continue;
-    if (!std::isfinite(s.mean_mps2[k]) || !finite(ErrorOf{s.sigma_mps2[k], s.bound_mps2[k]})) return false;
+    if (!std::isfinite(s.mean_mps2[k]) || !all_finite(ErrorOf{s.sigma_mps2[k], s.bound_mps2[k]})) return false;
   }
-  return finite(s.field.field_nt) && finite(s.field.axis_error_nt) && finite(s.reference.total_error_nt) &&
-         finite(s.reference.dip_error_rad) && finite(Vec3{s.gravity.g_mps2, s.gravity.sigma_mps2, s.sigmas}) &&
+  return finite(s.field.field_nt) && all_finite(s.field.axis_error_nt) && all_finite(s.reference.total_error_nt) &&
+         all_finite(s.reference.dip_error_rad) && finite(Vec3{s.gravity.g_mps2, s.gravity.sigma_mps2, s.sigmas}) &&
          finite(Vec3{s.field.vector_nt, s.field.turn_rad, s.acceleration_mps2}) &&
          finite(Vec3{s.reference.total_nt, s.reference.dip_rad, 0.0});
 }
 
 bool errors_are_positive(const DipStation& s, int sensors) noexcept {
   for (int i = 0; i < sensors; ++i)
-    if (s.used.has(i) && (!(s.sigma_mps2[index(i)] > 0.0) || s.bound_mps2[index(i)] < 0.0)) return false;
+    if (s.used.has(i) && (!(s.sigma_mps2[at(i)] > 0.0) || s.bound_mps2[at(i)] < 0.0)) return false;
   return s.sigmas > 0.0 && s.gravity.sigma_mps2 >= 0.0 && s.acceleration_mps2 >= 0.0 && s.field.vector_nt >= 0.0 &&
          s.field.turn_rad >= 0.0 && !negative(s.field.axis_error_nt) && !negative(s.reference.total_error_nt) &&
          !negative(s.reference.dip_error_rad);
@@ -56,7 +55,7 @@ DipRefusal take_field(const DipStation& s, Bounds& out) noexcept {
   const double allowed_nt = error_nt + s.reference.total_error_nt.within(s.sigmas);
   if (!(std::fabs(length_nt - s.reference.total_nt) <= allowed_nt)) return DipRefusal::field_length;
   const double turn_rad = angle_with_sine(error_nt / length_nt) + s.field.turn_rad;
-  const double off_rad = s.reference.dip_error_rad.within(s.sigmas) + turn_rad + kRounding;
+  const double off_rad = s.reference.dip_error_rad.within(s.sigmas) + turn_rad + kDipRounding;
   const double low = sine_of(std::fmax(s.reference.dip_rad - off_rad, -kHalfTurn_rad));
   const double high = sine_of(std::fmin(s.reference.dip_rad + off_rad, kHalfTurn_rad));
   out.along = scaled(s.field.field_nt, 1.0 / length_nt);
@@ -68,12 +67,12 @@ DipRefusal take_field(const DipStation& s, Bounds& out) noexcept {
 DipRefusal bounds_of(const SensorArray& array, const DipStation& s, Bounds& out) noexcept {
   if (!array.all().contains(s.used) || s.used.size() < 3 || !spans_space(array, s.used))
     return DipRefusal::too_few_sensors;
-  if (!finite(s, array.size())) return DipRefusal::not_finite;
+  if (!all_finite(s, array.size())) return DipRefusal::not_finite;
   if (!errors_are_positive(s, array.size())) return DipRefusal::error_not_positive;
   if (!(s.gravity.g_mps2 > 0.0 && s.reference.total_nt > 0.0 && std::fabs(s.reference.dip_rad) <= kHalfTurn_rad))
     return DipRefusal::bad_reference;
   for (int i = 0; i < array.size(); ++i) {
-    const std::size_t k = index(i);
+    const std::size_t k = at(i);
     if (s.used.has(i)) out.error_mps2[k] = ErrorOf{s.sigma_mps2[k], s.bound_mps2[k]}.within(s.sigmas);
   }
   const double off_mps2 = s.sigmas * s.gravity.sigma_mps2;
@@ -92,7 +91,7 @@ struct Shifts {
 
   /// Keeps t with  least <= at - t slope <= most.  `reach`: no t that is left is larger.
   void keep(double at, double slope, double least, double most) noexcept {
-    const double rounding = kRounding * (std::fabs(at) + std::fabs(least) + std::fabs(most));
+    const double rounding = kDipRounding * (std::fabs(at) + std::fabs(least) + std::fabs(most));
     const double change = std::fabs(slope) * reach;
     least -= rounding;
     most += rounding;
@@ -123,7 +122,7 @@ Shifts of_length(const Vec3& x, const Vec3& v, double shortest, double longest) 
   Shifts out;
   const double square = dot(v, v), half = dot(x, v);
   const double across = dot(x, x) - half / square * half;  // of the least length squared
-  const double outer = longest * longest * (1.0 + kRounding) - across;
+  const double outer = longest * longest * (1.0 + kDipRounding) - across;
   if (!(outer >= 0.0)) return out;
   const double middle = half / square;
   const double radius = std::sqrt(outer / square);
@@ -131,7 +130,7 @@ Shifts of_length(const Vec3& x, const Vec3& v, double shortest, double longest) 
   out.low = middle - radius;
   out.high = middle + radius;
   out.reach = std::fabs(middle) + radius;
-  const double inner = shortest * shortest * (1.0 - kRounding) - across;
+  const double inner = shortest * shortest * (1.0 - kDipRounding) - across;
   if (shortest > 0.0 && inner > 0.0) {
     const double hole = std::sqrt(inner / square);
     out.gap = true;
@@ -152,19 +151,19 @@ struct Spread {
 /// |sum e_j a_j|^2 is at most the sum of |e_j e_k a_j.a_k|, exactly that for two sensors.
 Spread spread_of(const DipJudgement& j, const Bounds& bounds, int sensors, int apart) noexcept {
   Spread out;
-  const Vec3 v = apart < 0 ? Vec3{} : j.column[index(apart)];
+  const Vec3 v = apart < 0 ? Vec3{} : j.column[at(apart)];
   const double square = dot(v, v);
   std::array<Vec3, kCapacity> moved{};
   double sum = 0.0;
   for (int i = 0; i < sensors; ++i) {
     if (!j.used.has(i) || i == apart) continue;
-    const Vec3 c = scaled(j.column[index(i)], bounds.error_mps2[index(i)]);
+    const Vec3 c = scaled(j.column[at(i)], bounds.error_mps2[at(i)]);
     const double share = square > 0.0 ? dot(c, v) / square : 0.0;
-    moved[index(i)] = minus(c, scaled(v, share));
+    moved[at(i)] = minus(c, scaled(v, share));
     out.shift_mps2 += std::fabs(share);
-    out.along_mps2 += std::fabs(dot(moved[index(i)], bounds.along));
-    for (int k = 0; k < i; ++k) sum += 2.0 * std::fabs(dot(moved[index(i)], moved[index(k)]));
-    sum += dot(moved[index(i)], moved[index(i)]);
+    out.along_mps2 += std::fabs(dot(moved[at(i)], bounds.along));
+    for (int k = 0; k < i; ++k) sum += 2.0 * std::fabs(dot(moved[at(i)], moved[at(k)]));
+    sum += dot(moved[at(i)], moved[at(i)]);
   }
   out.length_mps2 = std::sqrt(sum) + bounds.acceleration_mps2;
   out.along_mps2 += bounds.acceleration_mps2;
@@ -173,27 +172,26 @@ Spread spread_of(const DipJudgement& j, const Bounds& bounds, int sensors, int a
 
 /// Entry (a, b) of what least squares leave of the readings: r = P y.
 double parity_entry(const SensorArray& array, const DipJudgement& j, int a, int b) noexcept {
-  return (a == b ? 1.0 : 0.0) - dot(array.axis(a), j.column[index(b)]);
+  return (a == b ? 1.0 : 0.0) - dot(array.axis(a), j.column[at(b)]);
 }
 
 /// A line of vectors x - t column_faulty (-1: x alone), and the errors that are allowed for: of all sensors but
 /// `apart`.
-struct Line {
+struct SensorLine {
   int faulty = -1, apart = -1;
 };
 
 /// Residuals, which three sensors have none of: |r_a - t P_ai| is at most what the errors put there. `shifted_mps2`: so
 /// much of t is no reading of sensor i, but what errors of the others do along its column.
 void keep_residuals(const SensorArray& array, const DipStation& s, const DipJudgement& j, const Bounds& bounds,
-                    Line line, double shifted_mps2, Shifts& shifts) noexcept {
+                    SensorLine line, double shifted_mps2, Shifts& shifts) noexcept {
   if (j.used.size() == 3) return;
   for (int a = 0; a < array.size(); ++a) {
     if (!j.used.has(a)) continue;
-    double limit = kRounding * bounds.longest_mps2;
+    double limit = kDipRounding * bounds.longest_mps2;
     for (int b = 0; b < array.size(); ++b)
-      if (j.used.has(b) && b != line.apart)
-        limit += std::fabs(parity_entry(array, j, a, b)) * bounds.error_mps2[index(b)];
-    const double residual = s.mean_mps2[index(a)] - dot(array.axis(a), j.x_mps2);
+      if (j.used.has(b) && b != line.apart) limit += std::fabs(parity_entry(array, j, a, b)) * bounds.error_mps2[at(b)];
+    const double residual = s.mean_mps2[at(a)] - dot(array.axis(a), j.x_mps2);
     const double slope = line.faulty < 0 ? 0.0 : parity_entry(array, j, a, line.faulty);
     limit += std::fabs(slope) * shifted_mps2;
     shifts.keep(residual, slope, -limit, limit);
@@ -201,21 +199,21 @@ void keep_residuals(const SensorArray& array, const DipStation& s, const DipJudg
 }
 
 DipHypothesis explain(const SensorArray& array, const DipStation& s, const DipJudgement& j, const Bounds& bounds,
-                      Line line) noexcept {
+                      SensorLine line) noexcept {
   DipHypothesis out;
   const Spread spread = spread_of(j, bounds, array.size(), line.apart);
   const double shortest = bounds.shortest_mps2 - spread.length_mps2;
   const double longest = bounds.longest_mps2 + spread.length_mps2;
-  const Vec3 v = line.faulty < 0 ? Vec3{} : j.column[index(line.faulty)];
+  const Vec3 v = line.faulty < 0 ? Vec3{} : j.column[at(line.faulty)];
   Shifts shifts;
   if (line.faulty < 0) {
     const double length = norm(j.x_mps2);
-    shifts.any = shortest - kRounding * longest <= length && length <= longest * (1.0 + kRounding);
+    shifts.any = shortest - kDipRounding * longest <= length && length <= longest * (1.0 + kDipRounding);
   } else {
     shifts = of_length(j.x_mps2, v, shortest, longest);
   }
   const double shifted = line.apart < 0 ? 0.0 : spread.shift_mps2 + bounds.acceleration_mps2 / norm(v);
-  if (line.apart >= 0) out.margin_mps2 = bounds.error_mps2[index(line.apart)] + shifted;
+  if (line.apart >= 0) out.margin_mps2 = bounds.error_mps2[at(line.apart)] + shifted;
   shifts.keep(dot(j.x_mps2, bounds.along), dot(v, bounds.along), bounds.least_mps2 - spread.along_mps2,
               bounds.most_mps2 + spread.along_mps2);
   keep_residuals(array, s, j, bounds, line, shifted, shifts);
@@ -232,7 +230,7 @@ bool begin(const SensorArray& array, const DipStation& station, Bounds& bounds, 
   out.used = station.used;
   out.column = least_squares(array, station.used).column;
   for (int i = 0; i < array.size(); ++i)
-    if (station.used.has(i)) out.x_mps2 = plus(out.x_mps2, scaled(out.column[index(i)], station.mean_mps2[index(i)]));
+    if (station.used.has(i)) out.x_mps2 = plus(out.x_mps2, scaled(out.column[at(i)], station.mean_mps2[at(i)]));
   return true;
 }
 
@@ -258,7 +256,7 @@ DipJudgement judge_dip(const SensorArray& array, const DipStation& station) noex
   if (!begin(array, station, bounds, out)) return out;
   out.none = explain(array, station, out, bounds, {-1, -1});
   for (int i = 0; i < array.size(); ++i)
-    if (station.used.has(i)) out.faulty[index(i)] = explain(array, station, out, bounds, {i, i});
+    if (station.used.has(i)) out.faulty[at(i)] = explain(array, station, out, bounds, {i, i});
   return out;
 }
 
@@ -276,8 +274,8 @@ double surely_seen_mps2(const SensorArray& array, const DipStation& station, con
   s.reference.total_error_nt.bound *= 2.0;
   s.reference.dip_error_rad.bound *= 2.0;
   for (int k = 0; k < array.size(); ++k) {
-    s.mean_mps2[index(k)] = dot(array.axis(k), gravity_mps2);
-    s.bound_mps2[index(k)] *= 2.0;
+    s.mean_mps2[at(k)] = dot(array.axis(k), gravity_mps2);
+    s.bound_mps2[at(k)] *= 2.0;
   }
   DipJudgement judged;
   Bounds bounds;
@@ -285,7 +283,7 @@ double surely_seen_mps2(const SensorArray& array, const DipStation& station, con
   const FaultRanges unseen = explain(array, s, judged, bounds, {i, -1}).shift;
   double largest = 0.0;
   for (int k = 0; k < unseen.count; ++k) {
-    const FaultRange& r = unseen.range[index(k)];
+    const FaultRange& r = unseen.range[at(k)];
     largest = std::fmax(largest, std::fmax(std::fabs(r.low_mps2), std::fabs(r.high_mps2)));
   }
   return largest;

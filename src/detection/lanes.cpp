@@ -96,7 +96,7 @@ inline bool two_slots(const std::int32_t* slots, TwoBits& out) noexcept {
   return true;
 }
 
-constexpr size_t members_of(int triples) noexcept { return static_cast<size_t>(kTripleCapacity - triples); }
+constexpr size_t members_from(int triples) noexcept { return static_cast<size_t>(kTripleCapacity - triples); }
 
 /// Two coefficients, as `wide` reads four or eight.
 inline Two two_from(const double* q) noexcept {
@@ -144,7 +144,7 @@ inline bool replace_two(Two square, double g_mps2, std::int32_t* slots, std::int
 /// they are a long chain, of which a processor has too few at work at once.
 PLUMB_WITHIN int replace_twos(const SensorArray& array, const double* y_mps2, double g_mps2, std::int32_t* slots,
                               std::int64_t* sums, TripleRange range) noexcept {
-  const size_t members = members_of(range.end), end = static_cast<size_t>(range.end);
+  const size_t members = members_from(range.end), end = static_cast<size_t>(range.end);
   auto k = static_cast<size_t>(range.first);
   Two square = squares_of_two(array, y_mps2, members, k);
   if (k + 4 <= end) {
@@ -253,7 +253,7 @@ PLUMB_AVX512 PLUMB_WITHIN bool replace_eight(__m512d square, double g_mps2, std:
 
 PLUMB_AVX2 PLUMB_WITHIN int replace_fours(const SensorArray& array, const double* y_mps2, double g_mps2,
                                           std::int32_t* slots, std::int64_t* sums, TripleRange range) noexcept {
-  const size_t members = members_of(range.end), end = static_cast<size_t>(range.end);
+  const size_t members = members_from(range.end), end = static_cast<size_t>(range.end);
   auto k = static_cast<size_t>(range.first);
   __m256d square = squares_of_four(array, y_mps2, members, k);
   if (kTripleCapacity >= 8 && k + 8 <= end) {
@@ -279,7 +279,7 @@ PLUMB_AVX2 int by_fours(const SensorArray& array, const double* y_mps2, double g
 
 PLUMB_AVX512 PLUMB_WITHIN int replace_eights(const SensorArray& array, const double* y_mps2, double g_mps2,
                                              std::int32_t* slots, std::int64_t* sums, TripleRange range) noexcept {
-  const size_t members = members_of(range.end), end = static_cast<size_t>(range.end);
+  const size_t members = members_from(range.end), end = static_cast<size_t>(range.end);
   auto k = static_cast<size_t>(range.first);
   constexpr size_t kSecond = kCapacity > 8 ? 8 : 0, kThird = kCapacity > 16 ? 16 : 0;
   const Eights y = {_mm512_loadu_pd(y_mps2), _mm512_loadu_pd(y_mps2 + kSecond), _mm512_loadu_pd(y_mps2 + kThird)};

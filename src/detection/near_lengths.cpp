@@ -18,9 +18,9 @@ namespace {
 /// above its rounding.
 constexpr double kLeastLength_mps2 = 4.0, kMostLength_mps2 = 100.0;
 /// Largest change of a square, as a part of it: the square stays above a quarter of what it was.
-constexpr double kMostChange = 0.75;
+constexpr double kMostLengthChange = 0.75;
 /// From here on a double, or a float, has no fraction: adding and subtracting it rounds to the nearest integer.
-constexpr double kNoFraction = 6755399441055744.0;  // with room for a sign: 1.5 * 2^52
+constexpr double kSignedNoFraction = 6755399441055744.0;  // with room for a sign: 1.5 * 2^52
 constexpr float kNoFractionSingle = 8388608.0F;
 constexpr auto kUnits_per_mps2 = static_cast<float>(kMaeUnits_per_mps2);
 
@@ -31,10 +31,10 @@ void NearLength::take(double square_m2ps4, double g_mps2) noexcept {
   const double length = std::sqrt(square_m2ps4);
   if (!(length >= kLeastLength_mps2 && length <= kMostLength_mps2)) return;  // a NaN is not
   const double error_units = (length - g_mps2) * kMaeUnits_per_mps2;
-  const double whole = (error_units + kNoFraction) - kNoFraction;
+  const double whole = (error_units + kSignedNoFraction) - kSignedNoFraction;
   square_m2ps4_ = static_cast<float>(square_m2ps4);
   length_mps2_ = static_cast<float>(length);
-  reach_m2ps4_ = static_cast<float>(kMostChange * square_m2ps4);
+  reach_m2ps4_ = static_cast<float>(kMostLengthChange * square_m2ps4);
   fraction_units_ = static_cast<float>(error_units - whole);
   whole_units_ = static_cast<std::int32_t>(whole);
 }

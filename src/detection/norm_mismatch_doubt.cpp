@@ -9,7 +9,7 @@ namespace {
 
 /// A set whose every member is checked by the parity of the others at least this well may speak about gravity, and one
 /// whose less checked members are no better explanation (`corroborates_norm`).
-constexpr double kMinLeverage = 0.002;
+constexpr double kMinLengthLeverage = 0.002;
 /// A set doubts gravity from this part of the limit on where the norm would reject it: what its subsets, which measure
 /// the length less well, are off by is noise on top of the same error, and must not be held against them first.
 constexpr double kDoubtShare = 0.5;
@@ -82,7 +82,7 @@ Testimony testimony_of(const BlockTests& tests, const ReferencePanel& panel, con
   const SetTest& t = tests.of(set);
   if (!t.tested || !t.parity_consistent(limits)) return out;  // one unit to spare: there is parity
   if (!sums.agrees(tests.array(), limits, set)) return out;
-  if (t.least_leverage < kMinLeverage && !tests.corroborates_norm(set, t)) return out;
+  if (t.least_leverage < kMinLengthLeverage && !tests.corroborates_norm(set, t)) return out;
   const double off = t.norm < 0.0 ? -t.norm : t.norm;
   const double limit = t.norm_reject_limit(limits);
   out.heard = true;

@@ -4,14 +4,13 @@
 #include <limits>
 
 #include "largest_eigenvalue.hpp"
+#include "plumb/core/detail/numbers.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
 using detection_detail::largest_eigenvalue;
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// c(T) e: how far errors of its readings can move a triple's vector.
 double moved_by(const Mat3& map, const Vec3& errors) noexcept {
@@ -46,11 +45,11 @@ OneAttitude::OneAttitude(const SensorArray& array, const GravityReference& gravi
     if (!array.triple(k).votes) continue;
     const double d = allowance(array, budget, k);
     for (int m = 0; m < 3; ++m) {
-      Entry& entry = entries_[index(triples_)][index(m)];
+      Entry& entry = entries_[plumb::at(triples_)][plumb::at(m)];
       entry.weight = triple_weight(array, k, m);
       entry.reach = (2.0 * g_mps2_ * d + d * d) / dot(entry.weight, entry.weight);
     }
-    sensors_[index(triples_)] = array.triple(k).sensors;
+    sensors_[plumb::at(triples_)] = array.triple(k).sensors;
     ++triples_;
   }
 }
@@ -58,7 +57,7 @@ OneAttitude::OneAttitude(const SensorArray& array, const GravityReference& gravi
 template <class F>
 void OneAttitude::for_each(F&& f) const noexcept {
   for (int t = 0; t < triples_; ++t) {
-    for (std::size_t m = 0; m < 3; ++m) f(int{sensors_[index(t)][m]}, entries_[index(t)][m]);
+    for (std::size_t m = 0; m < 3; ++m) f(int{sensors_[plumb::at(t)][m]}, entries_[plumb::at(t)][m]);
   }
 }
 

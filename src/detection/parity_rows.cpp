@@ -5,6 +5,7 @@
 
 #include "largest_eigenvalue.hpp"
 #include "plumb/array/geometry.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/numeric/cholesky.hpp"
 #include "plumb/numeric/symmetric_eigen.hpp"
@@ -15,10 +16,7 @@ namespace {
 
 using std::size_t;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAlike = 1e-3;
-
-constexpr size_t at(int i) noexcept { return static_cast<size_t>(i); }
 
 /// Symmetric, of what multiplies (u, 1) in a reading: the axis times gravity, and the offset.
 using Form = std::array<double, 16>;
@@ -45,7 +43,7 @@ Form between(const SensorArray& array, const ParityBasis& basis, int k, int l, d
   return out;
 }
 
-double largest_of(const Form& form) noexcept {
+double largest_entry_of(const Form& form) noexcept {
   const Mat3 a = {form[0], form[1], form[2], form[4], form[5], form[6], form[8], form[9], form[10]};
   return largest_over_directions(a, {form[3], form[7], form[11]}, form[15]);
 }
@@ -57,7 +55,7 @@ double worst_sum(const SensorArray& array, double g_mps2, Weight&& weight) noexc
   for (int i = 0; i < array.size(); ++i) {
     for (int j = 0; j < array.size(); ++j) add_block(array.uncertainty(), i, j, g_mps2, weight(i, j), sum);
   }
-  return std::fmax(largest_of(sum), 0.0);
+  return std::fmax(largest_entry_of(sum), 0.0);
 }
 
 }  // namespace

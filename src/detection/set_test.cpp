@@ -19,13 +19,13 @@ using std::size_t;
 /// of u and components of u.
 constexpr int kNormHarmonics = 9;
 /// Calibrations beyond: shared by parity and the norm.
-constexpr double kBeyond = 0.005;
+constexpr double kBeyondTail = 0.005;
 
 /// Of parity whatever is left in its rows: four numbers each.
-double parity_factor(int rows) noexcept { return std::sqrt(chi2_tail_quantile(kBeyond, rows > 1 ? 4 * rows : 4)); }
+double parity_factor(int rows) noexcept { return std::sqrt(chi2_tail_quantile(kBeyondTail, rows > 1 ? 4 * rows : 4)); }
 
 /// Members of a set with their whitened rows and readings.
-struct Rows {
+struct SetRows {
   int count = 0;
   std::array<int, kCapacity> sensor{};
   std::array<Vec3, kCapacity> a{};    ///< h_i / sigma_i
@@ -35,8 +35,8 @@ struct Rows {
   bool tolerant = false;                      ///< some of them is not zero
 };
 
-Rows gather(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept {
-  Rows rows;
+SetRows gather(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept {
+  SetRows rows;
   double sigma = 0.0, inverse = 0.0;
   for (int i = 0; i < array.size(); ++i) {
     if (!set.has(i)) continue;
@@ -54,7 +54,7 @@ Rows gather(const SensorArray& array, const Readings& y_mps2, SensorSet set) noe
   return rows;
 }
 
-void add_tolerances(const BlockEvidence& block, Rows& rows) noexcept {
+void add_tolerances(const BlockEvidence& block, SetRows& rows) noexcept {
   for (int k = 0; k < rows.count; ++k) {
     const auto a = static_cast<size_t>(k);
     const auto tolerance_mps2 = static_cast<double>(block.tolerance_mps2[static_cast<size_t>(rows.sensor[a])]);
@@ -65,7 +65,7 @@ void add_tolerances(const BlockEvidence& block, Rows& rows) noexcept {
 }
 
 /// C times the sum of a_i z_i: weighted least squares, C from `invert_normal`.
-Vec3 solve(const Rows& rows, const Mat3& c) noexcept {
+Vec3 solve_rows(const SetRows& rows, const Mat3& c) noexcept {
   Vec3 right{};
   for (int k = 0; k < rows.count; ++k)
     right = plus(right, scaled(rows.a[static_cast<size_t>(k)], rows.z[static_cast<size_t>(k)]));
@@ -73,7 +73,7 @@ Vec3 solve(const Rows& rows, const Mat3& c) noexcept {
 }
 
 /// Inverse of the symmetric 3x3 normal matrix; false where the set has no rank 3.
-bool invert_normal(const Rows& rows, Mat3& inverse) noexcept {
+bool invert_normal(const SetRows& rows, Mat3& inverse) noexcept {
   double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
   for (int k = 0; k < rows.count; ++k) {
     const Vec3& a = rows.a[static_cast<size_t>(k)];
@@ -136,7 +136,8 @@ struct Products {
   double trace = 0.0, square = 0.0;  ///< of C and of C C
 };
 
-Products products_of(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p, const Vec3& x) noexcept {
+Products products_of(const RowUncertainty& uncertainty, const SetRows& rows, const Projection& p,
+                     const Vec3& x) noexcept {
   Products out;
   const AttitudeProducts attitude(x);
   for (int i = 0; i < rows.count; ++i) {
@@ -163,7 +164,7 @@ Products products_of(const RowUncertainty& uncertainty, const Rows& rows, const 
 }
 
 /// w'C w of the norm row alone, as the square of one vector over the four numbers of every row.
-double norm_row_variance(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p,
+double norm_row_variance(const RowUncertainty& uncertainty, const SetRows& rows, const Projection& p,
                          const Vec3& x) noexcept {
   const std::array<double, 4> z = {x[0], x[1], x[2], 1.0};
   double variance = 0.0;
@@ -195,7 +196,7 @@ double norm_row_variance(const RowUncertainty& uncertainty, const Rows& rows, co
 
 /// With P = I - A K', A the rows and K the C a_i, everything about P C follows from products of n x 3 matrices:
 /// tr(PC) = tr C - tr(K'CA), tr(PCPC) = tr CC - 2 tr(K'C CA) + tr(K'CA K'CA), w'C P C w = |Cw|^2 - (A'Cw).(K'Cw).
-Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows, const Projection& p,
+Systematic calibration_bound(const RowUncertainty& uncertainty, const SetRows& rows, const Projection& p,
                              const Vec3& x) noexcept {
   const int s = rows.count;
   Systematic out;
@@ -231,7 +232,7 @@ Systematic calibration_bound(const RowUncertainty& uncertainty, const Rows& rows
 /// What errors d with |d_i| <= tau_i, of whatever signs, do to the parity residual and to the norm row, whitened. The
 /// projector P of the parity rows gives |P d| <= |d| <= sqrt(sum tau_i^2), and by its columns, whose lengths are the
 /// roots of the leverages, |P d| <= sum |P e_i| tau_i.
-Systematic tolerance_bound(const Rows& rows, const Projection& p, const Vec3& u, double length,
+Systematic tolerance_bound(const SetRows& rows, const Projection& p, const Vec3& u, double length,
                            double sigma_norm) noexcept {
   Systematic out;
   Reach reach;
@@ -260,9 +261,9 @@ TestLimits TestLimits::from_rates(int n, double false_alarm_rate, double rejecti
   for (size_t nu = 1; nu < limits.parity_alarm.size(); ++nu)
     limits.parity_alarm[nu] = std::sqrt(chi2_tail_quantile(false_alarm_rate, static_cast<int>(nu)));
   limits.norm_alarm = limits.parity_alarm[1];
-  limits.calibration = std::sqrt(chi2_tail_quantile(2.0 * kBeyond, 4 * n - 3));
+  limits.calibration = std::sqrt(chi2_tail_quantile(2.0 * kBeyondTail, 4 * n - 3));
   limits.parity_calibration = parity_factor(n - 3);
-  limits.norm_calibration = std::sqrt(chi2_tail_quantile(kBeyond, kNormHarmonics));
+  limits.norm_calibration = std::sqrt(chi2_tail_quantile(kBeyondTail, kNormHarmonics));
   limits.acceleration_mps2 = acceleration_mps2;
   return limits;
 }
@@ -294,10 +295,10 @@ double SetTest::norm_reject_limit(const TestLimits& limits) const noexcept {
 
 double parity_residual(const SensorArray& array, const Readings& y_mps2, SensorSet set) noexcept {
   if (set.size() < 4 || !array.all().contains(set)) return 0.0;
-  const Rows rows = gather(array, y_mps2, set);
+  const SetRows rows = gather(array, y_mps2, set);
   Mat3 c{};
   if (!invert_normal(rows, c)) return 0.0;
-  const Vec3 x = solve(rows, c);
+  const Vec3 x = solve_rows(rows, c);
   double square = 0.0;
   for (int k = 0; k < rows.count; ++k) {
     const auto i = static_cast<size_t>(k);
@@ -317,12 +318,12 @@ SetTest test_set(const SensorArray& array, const GravityReference& gravity, cons
 void test_set(const SensorArray& array, const RowUncertainty* uncertainty, const GravityReference& gravity,
               const TestLimits& limits, const BlockEvidence& block, SensorSet set, SetTest& out) noexcept {
   if (set.size() < 3 || !array.all().contains(set) || !block.usable.contains(set) || !(block.samples > 0.0)) return;
-  Rows rows = gather(array, block.mean_mps2, set);
+  SetRows rows = gather(array, block.mean_mps2, set);
   Mat3 c{};
   if (!invert_normal(rows, c)) return;
   add_tolerances(block, rows);
 
-  const Vec3 x = solve(rows, c);
+  const Vec3 x = solve_rows(rows, c);
   const double length = norm(x);
   const Vec3 u = length > 0.0 ? scaled(x, 1.0 / length) : Vec3{0.0, 0.0, 1.0};
   const Vec3 cu = times(c, u);

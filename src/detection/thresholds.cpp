@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "largest_eigenvalue.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/detection/detail/parity_rows.hpp"
 #include "plumb/detection/detectable.hpp"
@@ -17,10 +18,6 @@ namespace {
 
 using detection_detail::largest_eigenvalue;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-
 /// Bound of sqrt(z' Cov_ii z) over all attitudes, z = (g, 1): the axis part by its largest eigenvalue, the cross term
 /// by its length.
 double calibration_sigma(const SensorArray& array, int i, double g_mps2) noexcept {
@@ -28,14 +25,14 @@ double calibration_sigma(const SensorArray& array, int i, double g_mps2) noexcep
   const auto entry = [&u, i](int p, int q) {
     const int a = 4 * i + (p > q ? p : q);
     const int b = 4 * i + (p > q ? q : p);
-    return u.covariance[index(a * (a + 1) / 2 + b)];
+    return u.covariance[at(a * (a + 1) / 2 + b)];
   };
   Mat3 axis{};
   for (int p = 0; p < 3; ++p) {
-    for (int q = 0; q < 3; ++q) axis[index(3 * p + q)] = entry(p, q);
+    for (int q = 0; q < 3; ++q) axis[at(3 * p + q)] = entry(p, q);
   }
   const double across = norm({entry(3, 0), entry(3, 1), entry(3, 2)});
-  const double misfit = u.misfit_mps2[index(i)];
+  const double misfit = u.misfit_mps2[at(i)];
   const double variance =
       g_mps2 * g_mps2 * largest_eigenvalue(axis) + 2.0 * g_mps2 * across + entry(3, 3) + misfit * misfit;
   return variance > 0.0 ? std::sqrt(variance) : 0.0;
@@ -89,8 +86,8 @@ class SetAside {
   /// sets.
   double shift(int m, int sensors) const noexcept {
     const int dof = sensors - 3;
-    const double alarm = m == 0 ? budget_.limits.parity_alarm[index(dof)] : 0.0;
-    const double reject = budget_.limits.reject[index(dof)];
+    const double alarm = m == 0 ? budget_.limits.parity_alarm[at(dof)] : 0.0;
+    const double reject = budget_.limits.reject[at(dof)];
     const double limit = (alarm > reject ? alarm : reject) + budget_.parity_systematic;
     return detectable_shift(limit, dof, settings_.missed_detection / sets_) + budget_.parity_systematic;
   }
@@ -106,7 +103,7 @@ class SetAside {
       if (out.has(units.of(i))) continue;
       const SensorSet rest = others - units.sensors_of(out);
       const int sensors = rest.size() + 1;
-      double& needed = of_size[index(sensors - 1)];
+      double& needed = of_size[at(sensors - 1)];
       if (!(needed > 0.0)) needed = shift(m, sensors);
       const double bias = needed * unit_bias(array_, rest, i, settings_.samples);
       if (bias > worst) worst = bias;
@@ -127,8 +124,8 @@ double drift_in_parity(const SensorArray& array, const TestSettings& settings, c
   const LeastSquares fit = least_squares(array, array.all());
   double columns = 0.0, square = 0.0;
   for (int i = 0; i < array.size() && array.size() > 3; ++i) {
-    const double tau = settings.tolerance_mps2[index(i)] / noise_mps2[index(i)];
-    const double leverage = 1.0 - dot(array.axis(i), fit.column[index(i)]);
+    const double tau = settings.tolerance_mps2[at(i)] / noise_mps2[at(i)];
+    const double leverage = 1.0 - dot(array.axis(i), fit.column[at(i)]);
     columns += leverage > 0.0 ? std::sqrt(leverage) * tau : 0.0;
     square += tau * tau;
   }
@@ -141,12 +138,12 @@ void find_detectable(const SensorArray& array, const TestSettings& settings, con
   const int dof = array.size() - 3;
   const double systematic = budget.parity_systematic;
   const double shift = dof < 1 ? kInfinity
-                               : systematic + detectable_shift(budget.limits.parity_alarm[index(dof)] + systematic, dof,
+                               : systematic + detectable_shift(budget.limits.parity_alarm[at(dof)] + systematic, dof,
                                                                settings.missed_detection);
   const LeastSquares fit = least_squares(array, array.all());
   for (int i = 0; i < array.size(); ++i) {
-    sensor[index(i)].gain = norm(fit.column[index(i)]);
-    sensor[index(i)].detectable_mps2 = shift * unit_bias(array, array.all().without(i), i, settings.samples);
+    sensor[at(i)].gain = norm(fit.column[at(i)]);
+    sensor[at(i)].detectable_mps2 = shift * unit_bias(array, array.all().without(i), i, settings.samples);
   }
 }
 
@@ -161,10 +158,10 @@ double protection_level(const SensorArray& array, const GravityReference& gravit
                         const std::array<SensorThresholds, kCapacity>& sensor) noexcept {
   double bias = 0.0, left = 0.0;
   for (int i = 0; i < array.size(); ++i) {
-    const SensorThresholds& s = sensor[index(i)];
+    const SensorThresholds& s = sensor[at(i)];
     const double moved = s.gain * s.detectable_mps2;
     if (moved > bias) bias = moved;
-    left += s.gain * settings.tolerance_mps2[index(i)];
+    left += s.gain * settings.tolerance_mps2[at(i)];
   }
   left += calibrated_vector_mps2(array, gravity.g_mps2);
   const double largest = largest_eigenvalue(least_squares(array, array.all()).covariance);
@@ -189,14 +186,14 @@ ErrorBudget error_budget(const SensorArray& array, const GravityReference& gravi
   out.gravity_mps2 = TestLimits::gravity * (gravity.sigma_mps2 + calibrated_at) + settings.acceleration_mps2;
   for (int i = 0; i < n; ++i) {
     const double sigma = array.sigma_mps2(i) / std::sqrt(settings.samples);
-    out.calibration_mps2[index(i)] = out.limits.calibration * calibration_sigma(array, i, gravity.g_mps2);
-    out.noise_mps2[index(i)] = sigma;
-    out.systematic_mps2[index(i)] = out.calibration_mps2[index(i)] + settings.tolerance_mps2[index(i)];
+    out.calibration_mps2[at(i)] = out.limits.calibration * calibration_sigma(array, i, gravity.g_mps2);
+    out.noise_mps2[at(i)] = sigma;
+    out.systematic_mps2[at(i)] = out.calibration_mps2[at(i)] + settings.tolerance_mps2[at(i)];
   }
   const double variance = settings.samples * worst_parity_variance(array, gravity.g_mps2);
   const double growth = noise_growth(largest_misfit(array, array.uncertainty(), array.all(), settings.samples));
   out.parity_systematic = out.limits.parity_calibration * std::sqrt(variance) +
-                          (n > 3 ? out.limits.reject[index(n - 3)] * growth : 0.0) +
+                          (n > 3 ? out.limits.reject[at(n - 3)] * growth : 0.0) +
                           drift_in_parity(array, settings, out.noise_mps2);
   return out;
 }
@@ -206,8 +203,8 @@ double guaranteed_detection_mps2(const SensorArray& array, const TestSettings& s
                                  int i) noexcept {
   const int dof = array.size() - 3;
   if (dof < 1) return kInfinity;
-  const double limit = budget.limits.parity_alarm[index(dof)] + budget.parity_systematic;
-  const double against = budget.limits.reject[index(dof)] + budget.parity_systematic;
+  const double limit = budget.limits.parity_alarm[at(dof)] + budget.parity_systematic;
+  const double against = budget.limits.reject[at(dof)] + budget.parity_systematic;
   return (limit + against) * unit_bias(array, array.all().without(i), i, settings.samples);
 }
 
@@ -230,20 +227,20 @@ Thresholds thresholds_of(const SensorArray& array, const GravityReference& gravi
   // A set that passes leaves no residual beyond its limit, and the truth none beyond the budget: together the slack.
   double limit = 0.0;
   for (int nu = 1; nu <= n - 3; ++nu) {
-    for (const double one : {budget.limits.reject[index(nu)], budget.limits.parity_alarm[index(nu)]})
+    for (const double one : {budget.limits.reject[at(nu)], budget.limits.parity_alarm[at(nu)]})
       limit = one > limit ? one : limit;
   }
   Readings slack{};
   for (int i = 0; i < n; ++i) {
-    slack[index(i)] = budget.noise_mps2[index(i)] * (limit + budget.parity_systematic + budget.noise_factor) +
-                      budget.systematic_mps2[index(i)];
+    slack[at(i)] = budget.noise_mps2[at(i)] * (limit + budget.parity_systematic + budget.noise_factor) +
+                   budget.systematic_mps2[at(i)];
   }
   out.sure = fault_bounds(array, slack);
   find_detectable(array, settings, budget, out.sensor);
   const SetAside provisionally_excluded(array, settings, budget);
   for (int i = 0; i < n; ++i) {
-    out.sensor[index(i)].provisional_exclusion_mps2 = provisionally_excluded.of(i);
-    out.sensor[index(i)].guaranteed_detection_mps2 = plumb::guaranteed_detection_mps2(array, settings, budget, i);
+    out.sensor[at(i)].provisional_exclusion_mps2 = provisionally_excluded.of(i);
+    out.sensor[at(i)].guaranteed_detection_mps2 = plumb::guaranteed_detection_mps2(array, settings, budget, i);
   }
   out.protection_rad = protection_level(array, gravity, settings, out.sensor);
   return out;

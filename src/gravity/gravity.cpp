@@ -26,7 +26,7 @@ constexpr double kPaperEarthRadius_m = 6371000.0;
 constexpr double kMaxSigma_mps2 = 0.1;
 constexpr double kAnything = std::numeric_limits<double>::max();
 
-Error check(double value, int field, double low, double high) noexcept {
+Error check_range(double value, int field, double low, double high) noexcept {
   if (!std::isfinite(value)) return Error{Errc::not_finite, field, value, 0.0};
   if (value < low) return Error{Errc::out_of_range, field, value, low};
   if (value > high) return Error{Errc::out_of_range, field, value, high};
@@ -50,8 +50,8 @@ Error check_layers(const NormalGravityInput& in) noexcept {
   for (int i = 0; i < in.layer_count; ++i) {
     const DensityLayer& layer = in.layers[static_cast<std::size_t>(i)];
     // Any thickness below Earth's radius: layers may go on beneath the deepest tool.
-    const Error e = first_of<2>(
-        {check(layer.density_kgpm3, kDensity, 900.0, 3500.0), check(layer.thickness_m, kThickness, 0.0, kSemiMajor_m)});
+    const Error e = first_of<2>({check_range(layer.density_kgpm3, kDensity, 900.0, 3500.0),
+                                 check_range(layer.thickness_m, kThickness, 0.0, kSemiMajor_m)});
     if (e.code != Errc::ok) return e;
   }
   return Error{};
@@ -101,17 +101,19 @@ bool GravityReference::plausible() const noexcept {
 }
 
 Expected<GravityReference> normal_gravity(const NormalGravityInput& in) noexcept {
-  const Error e = first_of<5>(
-      {check(in.latitude_deg, kLatitude, -90.0, 90.0), check(in.elevation_m, kElevation, -500.0, 9000.0),
-       check(in.depth_m, kDepth, 0.0, 15000.0), check_layers(in), check(in.sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
+  const Error e = first_of<5>({check_range(in.latitude_deg, kLatitude, -90.0, 90.0),
+                               check_range(in.elevation_m, kElevation, -500.0, 9000.0),
+                               check_range(in.depth_m, kDepth, 0.0, 15000.0), check_layers(in),
+                               check_range(in.sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
   if (e.code != Errc::ok) return tl::unexpected<Error>(e);
   const double g = free_air(in.latitude_deg, in.elevation_m - in.depth_m) - kPrey * column_above(in);
   return GravityReference{g, in.sigma_mps2, GravityModel::normal};
 }
 
 Expected<GravityReference> paper_gravity(double latitude_deg, double depth_m, double sigma_mps2) noexcept {
-  const Error e = first_of<3>({check(latitude_deg, kLatitude, -90.0, 90.0), check(depth_m, kDepth, 0.0, 15000.0),
-                               check(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
+  const Error e =
+      first_of<3>({check_range(latitude_deg, kLatitude, -90.0, 90.0), check_range(depth_m, kDepth, 0.0, 15000.0),
+                   check_range(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
   if (e.code != Errc::ok) return tl::unexpected<Error>(e);
   const double sine = std::sin(rad_from_deg(latitude_deg));
   const double sine_twice = std::sin(2.0 * rad_from_deg(latitude_deg));
@@ -121,14 +123,15 @@ Expected<GravityReference> paper_gravity(double latitude_deg, double depth_m, do
 }
 
 Expected<GravityReference> given_gravity(double g_mps2, double sigma_mps2) noexcept {
-  const Error e = first_of<2>({check(g_mps2, kValue, 9.5, 10.2), check(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
+  const Error e =
+      first_of<2>({check_range(g_mps2, kValue, 9.5, 10.2), check_range(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
   if (e.code != Errc::ok) return tl::unexpected<Error>(e);
   return GravityReference{g_mps2, sigma_mps2, GravityModel::value};
 }
 
 Expected<GravityReference> given_field(double length, double sigma) noexcept {
-  const Error e =
-      first_of<2>({check(length, kValue, kLeastField, kMostField), check(sigma, kSigma, 0.0, kMaxSigma_mps2)});
+  const Error e = first_of<2>(
+      {check_range(length, kValue, kLeastField, kMostField), check_range(sigma, kSigma, 0.0, kMaxSigma_mps2)});
   if (e.code != Errc::ok) return tl::unexpected<Error>(e);
   return GravityReference{length, sigma, GravityModel::magnetic};
 }
@@ -138,13 +141,13 @@ Expected<GravityReference> table_gravity(const double* depth_m, const double* g_
   if (depth_m == nullptr || g_mps2 == nullptr || count < 1) return fail(Errc::out_of_range, kDepth, count, 1.0);
   // The whole table is checked, not only the rows in use: a bad row must not wait for the depth that meets it.
   for (int i = 0; i < count; ++i) {
-    const Error e =
-        first_of<2>({check(depth_m[i], kDepth, -kAnything, kAnything), check(g_mps2[i], kValue, 9.5, 10.2)});
+    const Error e = first_of<2>(
+        {check_range(depth_m[i], kDepth, -kAnything, kAnything), check_range(g_mps2[i], kValue, 9.5, 10.2)});
     if (e.code != Errc::ok) return tl::unexpected<Error>(e);
     if (i > 0 && !(depth_m[i] > depth_m[i - 1])) return fail(Errc::out_of_range, kDepth, depth_m[i], depth_m[i - 1]);
   }
-  const Error e = first_of<2>(
-      {check(at_depth_m, kDepth, depth_m[0], depth_m[count - 1]), check(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
+  const Error e = first_of<2>({check_range(at_depth_m, kDepth, depth_m[0], depth_m[count - 1]),
+                               check_range(sigma_mps2, kSigma, 0.0, kMaxSigma_mps2)});
   if (e.code != Errc::ok) return tl::unexpected<Error>(e);
   int above = 0;
   while (above + 2 < count && at_depth_m > depth_m[above + 1]) ++above;

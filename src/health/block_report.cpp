@@ -11,8 +11,6 @@ inline namespace PLUMB_ABI {
 
 namespace {
 
-using Kind = BlockReport::Kind;
-
 /// In suspect a block is clean below this part of its limit.
 double clear_fraction(const JudgeTerms& terms) noexcept {
   return terms.suspect ? terms.settings.config.clear_fraction : 1.0;
@@ -58,7 +56,7 @@ void judge_mae(const BlockTests& tests, const JudgeTerms& terms, BlockReport& re
   }
 }
 
-void decided(BlockReport& report, Kind kind, Cause cause, Cause by, double statistic, double limit) noexcept {
+void decided(BlockReport& report, BlockKind kind, Cause cause, Cause by, double statistic, double limit) noexcept {
   report.kind = kind;
   report.cause = cause;
   report.decided_by = by;
@@ -79,7 +77,8 @@ void decide_clean(const JudgeTerms& terms, BlockReport& report) noexcept {
   const double norm_noise = t.norm_alarm_limit(limits) - t.norm_systematic;
   const bool parity_clean = t.parity <= f * parity_noise + t.parity_systematic;
   const bool norm_clean = std::fabs(t.norm) <= f * norm_noise + t.norm_systematic;
-  const Kind kind = parity_clean && norm_clean && report.mae_clean && !terms.partial ? Kind::clean : Kind::soft;
+  const BlockKind kind =
+      parity_clean && norm_clean && report.mae_clean && !terms.partial ? BlockKind::clean : BlockKind::soft;
   if (worst == report.parity_ratio && has_parity) {
     decided(report, kind, Cause::passed_block, Cause::parity, t.parity, t.parity_alarm_limit(limits));
   } else if (worst == report.mae_ratio) {
@@ -107,13 +106,14 @@ BlockReport judge(const BlockTests& tests, const JudgeTerms& terms) noexcept {
   // leaves open. Parity is linear indeed, and the norm of all is nearly so.
   if (!terms.in_force.owes_calibration()) judge_mae(tests, terms, report);
   if (!(report.parity_ratio <= 1.0)) {
-    decided(report, Kind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits));
+    decided(report, BlockKind::alarm, Cause::parity, Cause::parity, t.parity, t.parity_alarm_limit(limits));
   } else if (!(report.norm_ratio <= 1.0)) {
     const bool corroborated = tests.corroborates_norm(used, t);
-    decided(report, corroborated ? Kind::reference : Kind::alarm, corroborated ? Cause::norm_mismatch : Cause::norm,
-            Cause::norm, std::fabs(t.norm), t.norm_alarm_limit(limits));
+    decided(report, corroborated ? BlockKind::reference : BlockKind::alarm,
+            corroborated ? Cause::norm_mismatch : Cause::norm, Cause::norm, std::fabs(t.norm),
+            t.norm_alarm_limit(limits));
   } else if (report.mae_ratio > 1.0) {
-    decided(report, Kind::alarm, Cause::mae, Cause::mae, report.mae_worst_mps2, report.mae_limit_mps2);
+    decided(report, BlockKind::alarm, Cause::mae, Cause::mae, report.mae_worst_mps2, report.mae_limit_mps2);
   } else {
     decide_clean(terms, report);
   }

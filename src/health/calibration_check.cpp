@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plumb/core/angles.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/detection/estimate_error.hpp"
 #include "plumb/detection/isolation.hpp"
 #include "plumb/health/reference_study.hpp"
@@ -46,8 +47,6 @@ constexpr double kDoubtSigmas = 4.265;
 
 /// Sensors that agree by chance where all are off exclude one in so many: ln(1e-4).
 constexpr double kLnMostChance = -9.21;
-
-constexpr size_t at(int i) noexcept { return static_cast<size_t>(i); }
 
 double square(double x) noexcept { return x * x; }
 double beyond(double x, double bound) noexcept { return std::fmax(0.0, x - bound); }

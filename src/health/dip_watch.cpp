@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
-
-constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 constexpr Mat3 transposed(const Mat3& m) noexcept { return {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]}; }
 
@@ -21,7 +21,7 @@ bool two_may_be_faulty(const HealthMonitor& monitor) noexcept {
 
 /// What the reading of sensor i may be off by beside its noise, of either sign.
 double bound_of(const Verdict& v, const HealthMonitor& monitor, const MonitorSetup& setup, int i) noexcept {
-  const std::size_t k = index(i);
+  const std::size_t k = at(i);
   const SensorCoefficients& sensor = monitor.model().sensor[k];
   const double away_degc = v.temperature_degc - sensor.reference_degc;
   const bool known = std::isfinite(away_degc) && std::isfinite(v.temperature_rate_degc_per_min);
@@ -52,9 +52,9 @@ DipStation dip_station(const HealthMonitor& monitor, const MonitorSetup& setup, 
   for (int i = 0; i < array.size(); ++i) {
     if (!out.used.has(i)) continue;
     const double noise = array.sigma_mps2(i) * v.noise_factor / std::sqrt(independent);
-    out.mean_mps2[index(i)] = dot(array.axis(i), x_mps2);
-    out.sigma_mps2[index(i)] = std::sqrt(noise * noise + array.uncertainty().at(i, i, x_mps2));
-    out.bound_mps2[index(i)] = bound_of(v, monitor, setup, i);
+    out.mean_mps2[at(i)] = dot(array.axis(i), x_mps2);
+    out.sigma_mps2[at(i)] = std::sqrt(noise * noise + array.uncertainty().at(i, i, x_mps2));
+    out.bound_mps2[at(i)] = bound_of(v, monitor, setup, i);
   }
   return out;
 }

@@ -2,18 +2,18 @@
 
 #include <cmath>
 
+#include "plumb/core/detail/numbers.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 
 namespace {
 
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
 /// Of a scale, relative: beyond what any drift sigma that a configuration may name lets pass (three times 0.1).
 constexpr double kMostChange = 0.5;
 
 /// Not fmax, for which a NaN is no number: here it breaks every bound.
-double larger(double a, double b) noexcept { return std::isnan(a) || b <= a ? a : b; }
+double larger_or_nan(double a, double b) noexcept { return std::isnan(a) || b <= a ? a : b; }
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void DriftBounds::note_adoption(double time_s, bool in_flight) noexcept {
 }
 
 double DriftBounds::sigmas_off(int i, double scale_ratio, double bias_change_mps2) const noexcept {
-  return larger(std::fabs(scale_ratio - 1.0) / sigma(i).scale, std::fabs(bias_change_mps2) / sigma(i).bias_mps2);
+  return larger_or_nan(std::fabs(scale_ratio - 1.0) / sigma(i).scale, std::fabs(bias_change_mps2) / sigma(i).bias_mps2);
 }
 
 Error DriftBounds::check(const CoefficientChange& change, SensorSet sensors, const SensorModel& model,

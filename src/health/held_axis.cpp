@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/numeric/cholesky.hpp"
 
 namespace plumb {
@@ -9,13 +10,11 @@ inline namespace PLUMB_ABI {
 
 namespace {
 
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
 constexpr int kFitted = 2 * kCapacity;  ///< scale, bias per sensor
 constexpr int kHeld = 3 * kCapacity;    ///< axis error per sensor, its part along the axis without effect
 
-/// Sums over the stations of the fit, of the fitted sensors in the order of the array.
-struct Sums {
+/// AxisSums over the stations of the fit, of the fitted sensors in the order of the array.
+struct AxisSums {
   int k = 0;
   std::array<int, kCapacity> sensor{};
   std::array<double, std::size_t{kFitted} * kFitted> fitted{};  ///< F'MF, stride kFitted
@@ -23,8 +22,8 @@ struct Sums {
 };
 
 /// What one station tells: M = W - W A (A'WA)^-1 A'W with A the images of two directions across gravity.
-[[gnu::noinline]] void add_station(const SensorArray& array, const HeldAxisFit& fit, const Vec3& u, double g_mps2,
-                                   Sums& sums) noexcept {
+[[gnu::noinline]] void add_axis_station(const SensorArray& array, const HeldAxisFit& fit, const Vec3& u, double g_mps2,
+                                        AxisSums& sums) noexcept {
   const Vec3 aside = std::fabs(u[2]) < 0.8 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
   const Vec3 across = cross(u, aside);
   const Vec3 first = scaled(across, 1.0 / norm(across));
@@ -61,7 +60,7 @@ struct Sums {
 }
 
 /// Turns F'MF into the covariance of the fit and F'MA into how far a held axis bends it; false where it cannot be.
-[[gnu::noinline]] bool solve(const HeldAxisFit& fit, Sums& sums) noexcept {
+[[gnu::noinline]] bool solve_axis(const HeldAxisFit& fit, AxisSums& sums) noexcept {
   const int rows = 2 * sums.k;
   for (int i = 0; i < sums.k; ++i) {
     const HeldPrior& prior = fit.prior[at(sums.sensor[at(i)])];
@@ -83,7 +82,7 @@ struct Sums {
 using Line = std::array<double, std::size_t{4} * kCapacity>;
 
 /// Row of T for component p (0..2 axis, 3 bias) of sensor s; `i` its place among the fitted ones, -1 for none.
-Line line_of(const SensorArray& array, const Sums& sums, int s, int i, int p) noexcept {
+Line line_of(const SensorArray& array, const AxisSums& sums, int s, int i, int p) noexcept {
   Line t{};
   if (i < 0) {
     t[at(4 * s + p)] = 1.0;
@@ -103,7 +102,7 @@ Line line_of(const SensorArray& array, const Sums& sums, int s, int i, int p) no
 
 /// Covariance of the fitted parameters p and q without the held axes. The weights count those axes as if they were
 /// noise, which they are not: of F'MF + P = A only the share that is noise comes back, and the prior.
-double fit_covariance(const HeldAxisFit& fit, const Sums& sums, int p, int q) noexcept {
+double fit_covariance(const HeldAxisFit& fit, const AxisSums& sums, int p, int q) noexcept {
   double from_prior = 0.0;
   for (int m = 0; m < 2 * sums.k; ++m) {
     const HeldPrior& prior = fit.prior[at(sums.sensor[at(m / 2)])];
@@ -115,7 +114,7 @@ double fit_covariance(const HeldAxisFit& fit, const Sums& sums, int p, int q) no
 
 /// What of a common scale the prior keeps back, and what it makes of it instead: (F'MF + P)^-1 P e, e all scales.
 using Kept = std::array<double, kFitted>;
-Kept kept_back(const HeldAxisFit& fit, const Sums& sums) noexcept {
+Kept kept_back(const HeldAxisFit& fit, const AxisSums& sums) noexcept {
   Kept out{};
   for (int p = 0; p < 2 * sums.k; ++p) {
     for (int i = 0; i < sums.k; ++i) {
@@ -126,7 +125,7 @@ Kept kept_back(const HeldAxisFit& fit, const Sums& sums) noexcept {
   return out;
 }
 
-double packed(const RowUncertainty& u, int a, int b) noexcept {
+double entry(const RowUncertainty& u, int a, int b) noexcept {
   return a >= b ? u.covariance[at(a * (a + 1) / 2 + b)] : u.covariance[at(b * (b + 1) / 2 + a)];
 }
 
@@ -140,19 +139,19 @@ Line common_scale_of(const SensorArray& array) noexcept {
 
 /// Not inlined, nor is the next: neither needs its room while the other works.
 [[gnu::noinline]] void add_stations(const SensorArray& array, const HeldAxisFit& fit, double g_mps2,
-                                    Sums& sums) noexcept {
+                                    AxisSums& sums) noexcept {
   for (int i = 0; i < array.size(); ++i) {
     if (fit.sensors.has(i)) sums.sensor[at(sums.k++)] = i;
   }
   for (int k = 0; k < fit.count; ++k) {
     if (fit.left_out > 0 && k % fit.left_out == fit.left_out - 1) continue;
-    add_station(array, fit, fit.station[k].direction, g_mps2, sums);
+    add_axis_station(array, fit, fit.station[k].direction, g_mps2, sums);
   }
 }
 
 /// The covariance of the rows that the fit leaves, from the solved sums.
 [[gnu::noinline]] void write_uncertainty(const SensorArray& array, const GravityReference& gravity,
-                                         const HeldAxisFit& fit, const Sums& sums,
+                                         const HeldAxisFit& fit, const AxisSums& sums,
                                          RowUncertainty& uncertainty) noexcept {
   std::array<int, kCapacity> place{};
   place.fill(-1);
@@ -169,7 +168,7 @@ Line common_scale_of(const SensorArray& array) noexcept {
     for (int d = 0; d < 4 * array.size(); ++d) along += shared[at(d)] * line[at(d)];
     for (int c = 0; c < 4 * array.size(); ++c) {
       carried[at(c)] = shared[at(c)] * along;
-      for (int d = 0; d < 4 * array.size(); ++d) carried[at(c)] += packed(old, c, d) * line[at(d)];
+      for (int d = 0; d < 4 * array.size(); ++d) carried[at(c)] += entry(old, c, d) * line[at(d)];
     }
     for (int b = 0; b <= a; ++b) {
       const int l = place[at(b / 4)];
@@ -196,9 +195,9 @@ Line common_scale_of(const SensorArray& array) noexcept {
 
 bool held_axis_uncertainty(const SensorArray& array, const GravityReference& gravity, const HeldAxisFit& fit,
                            RowUncertainty& uncertainty, std::array<double, kCapacity>& data_share) noexcept {
-  Sums sums;
+  AxisSums sums;
   add_stations(array, fit, gravity.g_mps2, sums);
-  if (!solve(fit, sums)) return false;
+  if (!solve_axis(fit, sums)) return false;
   data_share.fill(0.0);
   for (int i = 0; i < sums.k; ++i) {
     const HeldPrior& prior = fit.prior[at(sums.sensor[at(i)])];

@@ -11,7 +11,7 @@ using std::size_t;
 namespace {
 
 /// Channels that scatter by more than so many times what their residuals do scatter together: the tool moves.
-constexpr double kTogether = 2.0;
+constexpr double kTogetherSigmas = 2.0;
 /// Channels that scatter by more than the largest factor explains in a block do so for another reason. With a stuck
 /// sensor among them they need not do it together: it does not follow what moves the others.
 constexpr double kMostOfOneBlock = 1.8 * NoiseStudy::kMostFactor * NoiseStudy::kMostFactor;
@@ -77,7 +77,7 @@ bool NoiseStudy::add(const SensorArray& array, const BlockAccumulator& block, co
   }
   const double parity = kept(parity_scatter(array, block, used, stated));
   const auto most = static_cast<double>(ranked(sorted, count, count / 2 + 1));
-  if (most > kTogether * std::fmax(parity, 1.0) || most > kMostOfOneBlock) return false;
+  if (most > kTogetherSigmas * std::fmax(parity, 1.0) || most > kMostOfOneBlock) return false;
   blocks_ = static_cast<float>(std::fmin(static_cast<double>(blocks_) + 1.0, kMemoryBlocks));
   for (int i = 0; i < array.size(); ++i) {
     const auto a = static_cast<size_t>(i);

@@ -3,17 +3,19 @@
 #include <cmath>
 
 #include "plumb/array/geometry.hpp"
+#include "plumb/core/detail/numbers.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
 namespace {
 
-using Row = std::array<double, 4>;     // of a sensor's parameters: W_x, W_y, W_z, b
-using Block = std::array<double, 16>;  // of two sensors' parameters, by rows
+using Row = std::array<double, 4>;         // of a sensor's parameters: W_x, W_y, W_z, b
+using PairBlock = std::array<double, 16>;  // of two sensors' parameters, by rows
 
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-constexpr std::size_t packed(int a, int b) noexcept { return at(a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a); }
+constexpr std::size_t packed_at(int a, int b) noexcept {
+  return at(a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a);
+}
 
 /// Scale changes W along the axis, bias is b.
 Row direction_of(const SensorArray& array, int parameter) noexcept {
@@ -30,13 +32,13 @@ double covariance_along(const SensorArray& array, int i, const Row& a, int j, co
 }
 
 /// L C R', where a side that is taken over keeps only what lies across its axis.
-Block kept_part(const SensorArray& array, int i, bool i_taken, int j, bool j_taken) noexcept {
+PairBlock kept_part(const SensorArray& array, int i, bool i_taken, int j, bool j_taken) noexcept {
   const auto across = [&array](int sensor, bool taken, int p, int q) {
     if (!taken) return p == q ? 1.0 : 0.0;
     if (p == 3 || q == 3) return 0.0;
     return (p == q ? 1.0 : 0.0) - array.axis(sensor)[at(p)] * array.axis(sensor)[at(q)];
   };
-  Block half{}, out{};
+  PairBlock half{}, out{};
   for (int p = 0; p < 4; ++p) {
     for (int q = 0; q < 4; ++q) {
       for (int k = 0; k < 4; ++k) {
@@ -54,13 +56,15 @@ Block kept_part(const SensorArray& array, int i, bool i_taken, int j, bool j_tak
 
 /// 1 sigma of an axis, in one direction across it [rad].
 double axis_sigma_rad(const SensorArray& array, int i) noexcept {
-  const Block across = kept_part(array, i, true, i, true);
+  const PairBlock across = kept_part(array, i, true, i, true);
   return std::sqrt(std::fmax(0.0, across[0] + across[5] + across[10]) / 2.0);
 }
 
 }  // namespace
 
-double OfferedCalibration::variance(int parameter) const noexcept { return covariance_[packed(parameter, parameter)]; }
+double OfferedCalibration::variance(int parameter) const noexcept {
+  return covariance_[packed_at(parameter, parameter)];
+}
 
 /// What is wrong with the calibration of one sensor at sight.
 Error OfferedCalibration::check(const SensorArray& now_array, const SensorArray& array, int i,
@@ -86,7 +90,8 @@ Error OfferedCalibration::read(const SensorModel& now, const SensorArray& now_ar
   }
   for (int a = 0; a < 2 * n; ++a) {
     for (int b = 0; b <= a; ++b) {
-      covariance_[packed(a, b)] = covariance_along(array, a / 2, direction_of(array, a), b / 2, direction_of(array, b));
+      covariance_[packed_at(a, b)] =
+          covariance_along(array, a / 2, direction_of(array, a), b / 2, direction_of(array, b));
     }
   }
   for (int i = 0; i < n; ++i) {
@@ -106,15 +111,15 @@ void OfferedCalibration::uncertainty(const SensorArray& array, SensorSet sensors
   for (int i = 0; i < array.size(); ++i) {
     for (int j = 0; j <= i; ++j) {
       const bool both = sensors.has(i) && sensors.has(j);
-      const Block kept = kept_part(array, i, sensors.has(i), j, sensors.has(j));
+      const PairBlock kept = kept_part(array, i, sensors.has(i), j, sensors.has(j));
       for (int p = 0; p < 4; ++p) {
         for (int q = 0; q < (i == j ? p + 1 : 4); ++q) {
           double sum = kept[at(4 * p + q)];
           for (int k = 0; both && k < 4; ++k) {
             const int a = 2 * i + k / 2, b = 2 * j + k % 2;
-            sum += direction_of(array, a)[at(p)] * covariance_[packed(a, b)] * direction_of(array, b)[at(q)];
+            sum += direction_of(array, a)[at(p)] * covariance_[packed_at(a, b)] * direction_of(array, b)[at(q)];
           }
-          out.covariance[packed(4 * i + p, 4 * j + q)] = sum;
+          out.covariance[packed_at(4 * i + p, 4 * j + q)] = sum;
         }
       }
     }
@@ -125,7 +130,7 @@ bool OfferedCalibration::plausible(int configured, SensorSet sensors, const Drif
   if (sensors_ != configured) return false;
   for (int a = 0; a < 2 * sensors_; ++a) {
     for (int b = 0; b <= a; ++b) {
-      const double c = covariance_[packed(a, b)];
+      const double c = covariance_[packed_at(a, b)];
       if (!(c * c <= variance(a) * variance(b) * (1.0 + 1e-9))) return false;
     }
     const double limit = a % 2 == 0 ? bounds.sigma(a / 2).scale : bounds.sigma(a / 2).bias_mps2;

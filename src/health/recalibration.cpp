@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "plumb/core/detail/numbers.hpp"
 #include "recalibration_kinds.hpp"
 
 namespace plumb {
@@ -13,8 +14,6 @@ inline namespace PLUMB_ABI {
 static_assert(std::is_trivially_copyable<Recalibration>::value, "a copy is an assignment");
 
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Stations beyond those that determine the parameters, so that the residuals can contradict the fit.
 constexpr int kSpareStations = 4;

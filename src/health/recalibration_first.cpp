@@ -5,6 +5,7 @@
 
 #include "plumb/calibration/acceptance.hpp"
 #include "plumb/calibration/observability.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "recalibration_kinds.hpp"
 
 namespace plumb {
@@ -12,18 +13,12 @@ inline namespace PLUMB_ABI {
 
 namespace {
 
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
 /// The nine harmonics of gravity that its length sees need nine directions ...
 constexpr int kHarmonicDirections = 9;
 /// ... and so many more, so that the residuals can contradict the fit. Three sensors have nothing but the length.
 constexpr int kSpare = 4, kSpareOfThree = 6;
 /// A sensor along whose axis gravity has changed by less than this part of it is the first to ask for more.
 constexpr double kLeastSpan = 1.0;
-/// Every parameter is known so much better than from the datasheet: half its sigma.
-constexpr double kLeastDataShare = 0.75;
-/// How seldom the residuals of a good fit may be so large.
-constexpr double kLeastProbability = 1e-4;
 
 /// Nothing is held, and a station unlike the others is a tool that has changed.
 [[gnu::noinline]] FitOptions free_axes() noexcept {

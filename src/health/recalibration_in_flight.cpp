@@ -1,6 +1,7 @@
 // A fit in flight: what it is made from, and what it must show before it is believed.
 #include <cmath>
 
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/health/detail/held_axis.hpp"
 #include "plumb/numeric/tails.hpp"
 #include "recalibration_kinds.hpp"
@@ -9,13 +10,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
-/// Bias and scale of a sensor are observed where the stations, not the drift sigma, give at least this share.
-constexpr double kLeastDataShare = 0.75;
-/// How seldom the residuals of a good fit may be so large. A refusal costs time only.
-constexpr double kLeastProbability = 1e-4;
 
 /// What the fit cannot explain is a reason to refuse it; nothing is asked of the axes.
 [[gnu::noinline]] FitOptions held_axes() noexcept {

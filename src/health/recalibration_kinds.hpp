@@ -16,6 +16,12 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+/// A parameter is observed where the stations, not what was known before, give at least this share of its information:
+/// half the sigma of the datasheet, or of the drift.
+inline constexpr double kLeastDataShare = 0.75;
+/// How seldom the residuals of a good fit may be so large. A refusal costs time only.
+inline constexpr double kLeastProbability = 1e-4;
+
 /// Biases and scales of the sensors in service, with the axes held (recalibration_in_flight.cpp).
 struct Recalibration::InFlight {
   static constexpr bool kHoldsAxes = true;

@@ -1,13 +1,12 @@
 // A calibration that the host brings: when it is tried, and what becomes of it.
 #include "plumb/array/geometry.hpp"
+#include "plumb/core/detail/numbers.hpp"
 #include "recalibration_kinds.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 
 namespace {
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Of a change, the part that moves the vector and leaves the readings in agreement, whatever the attitude. The
 /// stations know it by the length alone, within the bound on gravity and on the calibration, and an offer may be wrong

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/numeric/cholesky.hpp"
 
 namespace plumb {
@@ -11,8 +12,6 @@ namespace {
 
 constexpr int kParameters = 4;  // kappa G, a
 constexpr std::size_t kSquare = 16;
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -11,8 +11,6 @@ inline namespace PLUMB_ABI {
 
 namespace {
 
-using Kind = BlockReport::Kind;
-
 /// Blocks at rest that show the noise, before a sensor is provisionally excluded by parity alone.
 constexpr double kBlocksOfNoise = 3.0;
 
@@ -46,13 +44,14 @@ EventMask events_of(const MonitorState& s, const BlockReport& report, const Conc
   if (!concluded.isolated.empty()) raise(HealthEvent::exclusion);
   if (!concluded.aside.empty() && rank_of(s.in_force.array, s.in_service() - concluded.aside) == 3)
     raise(HealthEvent::provisional_exclusion);
-  if (report.kind != Kind::reference && d.isolation_timed_out(s.diagnosis_terms()))
+  if (report.kind != BlockKind::reference && d.isolation_timed_out(s.diagnosis_terms()))
     raise(HealthEvent::isolation_timeout);
   const bool nothing_explains = d.answer().no_consistent_hypothesis || concluded.refuted;
-  if (report.kind == Kind::alarm) raise(nothing_explains ? HealthEvent::no_consistent_hypothesis : HealthEvent::alarm);
+  if (report.kind == BlockKind::alarm)
+    raise(nothing_explains ? HealthEvent::no_consistent_hypothesis : HealthEvent::alarm);
   if (s.studies.check.refused()) raise(HealthEvent::no_consistent_hypothesis);
-  if (report.kind == Kind::reference) raise(HealthEvent::norm_mismatch);
-  if (report.kind == Kind::clean && !s.studies.check.refused()) raise(HealthEvent::passed_block);
+  if (report.kind == BlockKind::reference) raise(HealthEvent::norm_mismatch);
+  if (report.kind == BlockKind::clean && !s.studies.check.refused()) raise(HealthEvent::passed_block);
   if (d.probation_passed(s.settings.config)) raise(HealthEvent::probation_passed);
   return raised;
 }
@@ -145,7 +144,8 @@ HealthMonitor::Block HealthMonitor::close_block(double time_s, bool turning) noe
 /// Whether a block in slow motion still gives a vector: within the alert limit for what the tool moves by until the
 /// next, and of gravity's length within what it scattered. Parity is no matter of motion.
 bool HealthMonitor::bears_motion(const BlockReport& report) const noexcept {
-  const bool off = report.kind == Kind::reference || (report.kind == Kind::alarm && report.cause != Cause::parity);
+  const bool off =
+      report.kind == BlockKind::reference || (report.kind == BlockKind::alarm && report.cause != Cause::parity);
   return !off &&
          state_.studies.slow_motion.bound_rad(state_.in_force.gravity.g_mps2) <= state_.settings.config.alert_limit_rad;
 }
@@ -203,12 +203,12 @@ void HealthMonitor::keep_vector(const BlockTests& tests) noexcept {
   const int grade = s.diagnosis.isolation().confirmed_grade();
   if (grade < 1) return false;  // three sensors: what is wrong with one is wrong with all
   if (!check.open() || check.refused() || s.in_force.owes_calibration() || s.machine.mode == Mode::failed) return false;
-  check.count(report.kind == Kind::clean);
+  check.count(report.kind == BlockKind::clean);
   const CalibrationCheck::Terms terms{s.in_force.array, s.in_force.gravity, s.settings.limits};
   const SensorSet monitored = s.diagnosis.isolation().monitored();
   if (!check.searches()) {
     // Of a tool whose calibration is believed so far: the length is gravity's matter, and that is another now.
-    const bool other_gravity = report.kind == Kind::reference && s.diagnosis.suspicion() != Cause::norm_mismatch;
+    const bool other_gravity = report.kind == BlockKind::reference && s.diagnosis.suspicion() != Cause::norm_mismatch;
     if (check.corroborated() && other_gravity) check.forget_readings();
     if (check.add(s.diagnosis.station().direction, s.last.evidence, s.settings.config.distinct_attitude_angle_rad))
       check.weigh(terms, monitored, s.in_service(), s.diagnosis.episode().open);
@@ -225,7 +225,7 @@ void HealthMonitor::keep_vector(const BlockTests& tests) noexcept {
 void HealthMonitor::study_gravity(const BlockReport& report) noexcept {
   MonitorState& s = state_;
   const Mode mode = s.machine.mode;
-  const bool trusted = report.kind == Kind::clean && mode != Mode::suspect && mode != Mode::recalibrating;
+  const bool trusted = report.kind == BlockKind::clean && mode != Mode::suspect && mode != Mode::recalibrating;
   const bool corroborated = s.in_service() == s.in_force.array.all() && !s.last.partial &&
                             !s.diagnosis.episode().open && s.facts.noisy().empty();
   const GravityFinding::Terms terms{s.settings, s.in_force, s.last.evidence, s.in_service(), trusted, corroborated};
@@ -250,7 +250,7 @@ void HealthMonitor::collect_station(const BlockReport& report, const RawBlock& r
     s.recalibration.drop_last();
     return;
   }
-  if (report.kind == Kind::soft || !raw.complete().contains(s.in_service())) return;
+  if (report.kind == BlockKind::soft || !raw.complete().contains(s.in_service())) return;
   if (!(norm(report.used.x_mps2) > 0.0)) return;  // all read zero: no attitude
   s.recalibration.add_block(raw.mean(s.in_service(), report.used.x_mps2, s.last.evidence.samples),
                             s.diagnosis.station().blocks == 1);
@@ -275,8 +275,8 @@ EventMask HealthMonitor::serve_slow_block(const Sample& sample, const BlockTests
                             trace);
   // A faulty sensor may hide part of the movement, from the block and from every row after it.
   const bool contradicted = s.diagnosis.episode().open || s.diagnosis.suspicion() == Cause::parity_in_motion;
-  if (report.kind == Kind::alarm || contradicted) s.freshness.lapse();
-  const bool alarm = report.kind == Kind::alarm && !s.diagnosis.expected(HealthEvent::alarm, s.machine);
+  if (report.kind == BlockKind::alarm || contradicted) s.freshness.lapse();
+  const bool alarm = report.kind == BlockKind::alarm && !s.diagnosis.expected(HealthEvent::alarm, s.machine);
   if (alarm) s.recalibration.drop_last();
   return alarm ? bit(HealthEvent::alarm) : EventMask{0};
 }
@@ -291,7 +291,7 @@ EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTe
   if (d.follow_alarm(report, !s.in_force.owes_calibration())) s.requests.alarm_notice = report.cause;
   d.ask_about(terms, tests, report, s.requests.motion.served & s.machine.sensors.provisionally_excluded);
   d.follow_station(terms, tests, report, sample.station);
-  if (d.episode().open && report.kind != Kind::reference) d.vote(terms, tests);
+  if (d.episode().open && report.kind != BlockKind::reference) d.vote(terms, tests);
   d.count_doubt(terms, tests, report);
   const bool contradicted = check_calibration(report);
   d.count_clean(terms, tests, report, s.machine);
@@ -301,7 +301,7 @@ EventMask HealthMonitor::serve_block_at_rest(const Sample& sample, const BlockTe
   d.count_unbounded(terms, tests, report, turn_rad);
   d.examine_probation(terms, tests, report);
   study_gravity(report);
-  if (report.kind == Kind::clean && !s.in_force.owes_calibration())
+  if (report.kind == BlockKind::clean && !s.in_force.owes_calibration())
     s.studies.trend.add(s.in_force.array, s.last.evidence, s.in_service(), report.used.x_mps2, sample.time_s);
   if (s.studies.check.refused()) s.last.cause = Cause::calibration_contradicted;
   const Conclusion concluded = d.conclude(terms, report, {is_noise_known(s), as_stated});

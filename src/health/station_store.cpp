@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "plumb/core/detail/archive.hpp"
+#include "plumb/core/detail/numbers.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,8 +14,6 @@ static_assert(std::is_trivially_copyable<StationStore>::value, "a copy is an ass
 namespace {
 
 using archive_detail::bits_of;
-
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

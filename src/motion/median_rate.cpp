@@ -19,8 +19,6 @@ void sort(Component& values, std::size_t count) noexcept {
   }
 }
 
-bool finite(const Vec3& v) noexcept { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
-
 }  // namespace
 
 MedianRate median_rate(const TriadRates& rates, int faults) noexcept {

@@ -51,7 +51,7 @@ double in_mean(double interpolation, const MotionMeans& means) noexcept {
 
 /// What the term of a healthy gyro is off by: scale and axis, bias, noise, and how fast the acceleration changes. A
 /// quarter of a sample period covers that readings are compared at instants, rates over the intervals between them.
-double error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
+double mean_error_of(const GyroErrors& bounds, const MotionMeans& means, const GyroMeans& gyro, double k) noexcept {
   const double square = gyro.rate_product[0] + gyro.rate_product[1] + gyro.rate_product[2];
   const double rate = std::sqrt(square > 0.0 ? square : 0.0);
   const double relative = relative_error(bounds), more = (1.0 + relative) * (1.0 + relative);
@@ -123,8 +123,8 @@ struct ForceOfSet {
   double error_mps2 = 0.0;
 };
 
-ForceOfSet force_of(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
-                    const MotionReadings& readings, double force_mps2) noexcept {
+ForceOfSet force_of_set(const SensorArray& array, const MotionSetup& setup, const MotionSet& set,
+                        const MotionReadings& readings, double force_mps2) noexcept {
   std::array<Vec3, 3> normal{};
   Vec3 right{};
   double square = 0.0;
@@ -180,11 +180,11 @@ RotationTerm rotation_term(const MotionSetup& setup, const MotionMeans& means, R
   RotationTerm out;
   out.known = true;
   out.omega_per_s2 = omega_of(means.gyro[0]);
-  out.error_per_s2 = error_of(setup.gyro, means, means.gyro[0], noise_quantile);
+  out.error_per_s2 = mean_error_of(setup.gyro, means, means.gyro[0], noise_quantile);
   if (setup.gyros == 2) {
     if (!means.gyro[1].given) return bound;
     const Mat3 first = out.omega_per_s2, second = omega_of(means.gyro[1]);
-    const double error = error_of(setup.gyro, means, means.gyro[1], noise_quantile);
+    const double error = mean_error_of(setup.gyro, means, means.gyro[1], noise_quantile);
     const double apart = frobenius(first, second);
     out.gyros_disagree = apart > std::sqrt(3.0) * (out.error_per_s2 + error);
     for (std::size_t k = 0; k < 9; ++k) out.omega_per_s2[k] = 0.5 * (first[k] + second[k]);
@@ -253,7 +253,7 @@ bool rejects(const SensorArray& array, const MotionSetup& setup, const MotionSet
   if (set.least_singular == 0.0) return std::fabs(parity) > limit + norm(set.rest) * force;
   // What nearly parallel axes add of the force is taken off where the set sees the force: it costs what that force is
   // off by.
-  const ForceOfSet seen = force_of(array, setup, set, readings, force);
+  const ForceOfSet seen = force_of_set(array, setup, set, readings, force);
   return std::fabs(parity - dot(set.rest, seen.force_mps2)) > limit + norm(set.rest) * seen.error_mps2;
 }
 

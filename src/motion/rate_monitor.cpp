@@ -10,14 +10,14 @@ inline namespace PLUMB_ABI {
 namespace {
 
 constexpr double kMostSensitivity_s_per_m = 1.0;
-constexpr double kMostForce_mps2 = 1e5;
+constexpr double kMostSensedForce_mps2 = 1e5;
 constexpr double kMostAtRest_radps = 10.0;
 
-bool within(double value, double most) noexcept { return value >= 0.0 && value <= most; }
+bool in_range(double value, double most) noexcept { return value >= 0.0 && value <= most; }
 
 Expected<void> within_or_fail(double value, double most, int index) noexcept {
   if (!std::isfinite(value)) return fail(Errc::not_finite, index, value);
-  if (!within(value, most)) return fail(Errc::out_of_range, index, value, value < 0.0 ? 0.0 : most);
+  if (!in_range(value, most)) return fail(Errc::out_of_range, index, value, value < 0.0 ? 0.0 : most);
   return {};
 }
 
@@ -57,8 +57,8 @@ AngularRate rate_of(const SpecificForce& found) noexcept {
 }
 
 /// What the sample says counts, beyond the stated bound too: with less a healthy axis would be off.
-double force_of(const RateSample& sample, const RateSetup& setup) noexcept {
-  return within(sample.force_mps2, kMostForce_mps2) ? sample.force_mps2 : setup.force_bound_mps2;
+double most_force_of(const RateSample& sample, const RateSetup& setup) noexcept {
+  return in_range(sample.force_mps2, kMostSensedForce_mps2) ? sample.force_mps2 : setup.force_bound_mps2;
 }
 
 /// Of tests that each axis takes once a block at rest.
@@ -71,7 +71,7 @@ double rest_quantile(const RateSetup& setup, int axes) noexcept {
 
 Expected<void> RateMonitor::configure(const SensorArray& array, const RateSetup& setup) noexcept {
   if (const auto sound = within_or_fail(setup.at_rest_radps, kMostAtRest_radps, 120); !sound) return sound;
-  if (const auto sound = within_or_fail(setup.force_bound_mps2, kMostForce_mps2, 121); !sound) return sound;
+  if (const auto sound = within_or_fail(setup.force_bound_mps2, kMostSensedForce_mps2, 121); !sound) return sound;
   for (int i = 0; i < array.size(); ++i) {
     const double g = setup.errors[static_cast<std::size_t>(i)].g_sensitivity_s_per_m;
     if (const auto sound = within_or_fail(g, kMostSensitivity_s_per_m, i); !sound) return sound;
@@ -138,7 +138,7 @@ void RateMonitor::watch_rest(const RateSample& sample) noexcept {
       rest_.delivered = rest_.delivered.without(i);
     }
   }
-  const double force_mps2 = force_of(sample, setup_);
+  const double force_mps2 = most_force_of(sample, setup_);
   if (force_mps2 > rest_.largest_force_mps2) rest_.largest_force_mps2 = force_mps2;
   rest_.last_s = sample.time_s;
   if (++rest_.samples < setup_.block_samples[2]) return;
@@ -154,7 +154,7 @@ const RateVerdict& RateMonitor::step(const RateSample& sample) noexcept {
   as_force.reading_mps2 = sample.rate_radps;
   as_force.delivered = sample.delivered;
   as_force.clipped = sample.clipped;
-  const double force_mps2 = force_of(sample, setup_);
+  const double force_mps2 = most_force_of(sample, setup_);
   for (std::size_t k = 0; k < static_cast<std::size_t>(array_.size()); ++k)
     as_force.interpolation_mps2[k] = setup_.errors[k].g_sensitivity_s_per_m * force_mps2;
   const MotionVerdict& found = parity_.step(as_force);

@@ -1,10 +1,12 @@
 #include "plumb/numeric/symmetric_eigenvalues.hpp"
 
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include "plumb/core/detail/numbers.hpp"
+#include "plumb/numeric/detail/add_scaled.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -17,10 +19,8 @@ struct Columns {
   double *diagonal, *off_diagonal_sq, *u, *p;
 };
 
-constexpr std::size_t at(int i) noexcept { return static_cast<std::size_t>(i); }
-
 /// Largest magnitude; not finite where an entry is not.
-double largest_of(const double* a, int n, int stride) noexcept {
+double largest_entry(const double* a, int n, int stride) noexcept {
   double largest = 0.0, sum = 0.0;
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -32,8 +32,6 @@ double largest_of(const double* a, int n, int stride) noexcept {
   return largest + sum;
 }
 
-using Four = Eigen::Array4d;
-
 /// Columns below `i` in whole fours where the rows are long enough: what lies beyond is not read again.
 int padded(int i, int stride) noexcept {
   const int fours = (i + 3) / 4 * 4;
@@ -42,7 +40,7 @@ int padded(int i, int stride) noexcept {
 
 /// to += factor * from over `i` entries, and up to three more.
 void add_row(double* to, const double* from, double factor, int i, int fours) noexcept {
-  for (int j = 0; j < fours; j += 4) Four::Map(to + j) += factor * Four::Map(from + j);
+  for (int j = 0; j < fours; j += 4) add_scaled<4>(to + j, from + j, factor);
   for (int j = fours; j < i; ++j) to[j] += factor * from[j];
 }
 
@@ -126,7 +124,7 @@ bool solve_tridiagonal(double* d, double* e2, int n, double* values) noexcept {
 }
 
 bool eigenvalues(double* a, int n, int stride, double* values, const Columns& work) noexcept {
-  const double largest = largest_of(a, n, stride);
+  const double largest = largest_entry(a, n, stride);
   if (!std::isfinite(largest)) return false;
   // Where squares might leave the range of a double: a power of two changes no digit.
   constexpr int kMild = 400, kExponent = 1000;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double normal_density(double z) noexcept { return std::exp(-0.5 * z * z) / std::sqrt(2.0 * kPi); }

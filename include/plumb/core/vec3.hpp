@@ -28,6 +28,7 @@ constexpr Vec3 times(const Mat3& m, const Vec3& v) noexcept {
   return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
           m[6] * v[0] + m[7] * v[1] + m[8] * v[2]};
 }
+inline bool finite(const Vec3& a) noexcept { return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]); }
 /// F C F': a covariance in another frame.
 constexpr Mat3 turned_covariance(const Mat3& f, const Mat3& c) noexcept {
   Mat3 out{};

@@ -27,6 +27,7 @@ struct BlockReport {
     return kind == Kind::alarm || (kind == Kind::soft && mode == Mode::suspect);
   }
 };
+using BlockKind = BlockReport::Kind;
 
 /// What a block is judged by.
 struct JudgeTerms {
