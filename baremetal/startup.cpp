@@ -10,6 +10,7 @@ extern Initialiser init_array_begin[], init_array_end[];
 int application();  // not main, which ISO C++ forbids to call
 [[noreturn]] void reset_handler();
 [[noreturn]] void fault_handler();
+[[gnu::weak]] void systick_handler();  // of an image that has the timer interrupt
 // What <cmath> and the compiler may call; without an operating system each of them is the end.
 [[noreturn]] void __assert_func(const char*, int, const char*, const char*) { metal::leave(90); }
 [[noreturn]] void __cxa_pure_virtual() { metal::leave(91); }
@@ -27,7 +28,7 @@ constexpr std::uintptr_t kCoprocessorAccess = 0xE000ED88U;  // CPACR: full acces
 } vectors = {stack_top,
              {reset_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
               fault_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler,
-              fault_handler}};
+              systick_handler}};
 
 }  // namespace
 
@@ -42,6 +43,7 @@ void reset_handler() {
 }
 
 void fault_handler() { metal::leave(92); }
+void systick_handler() { metal::leave(93); }
 
 namespace metal {
 

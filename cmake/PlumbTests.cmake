@@ -370,6 +370,13 @@ target_link_libraries(plumb_monitor_loop PRIVATE plumb::plumb)
 add_test(NAME example.monitor_loop COMMAND plumb_monitor_loop)
 set_tests_properties(example.monitor_loop PROPERTIES LABELS core TIMEOUT 60
   PASS_REGULAR_EXPRESSION "suspect -> degraded  cause isolated_fault")
+plumb_find_package(Threads DEBIAN libc6-dev TARGET Threads::Threads)
+add_executable(plumb_ring_loop "${PROJECT_SOURCE_DIR}/examples/embed/ring_loop.cpp")
+plumb_compile_settings(plumb_ring_loop)
+target_link_libraries(plumb_ring_loop PRIVATE plumb::plumb Threads::Threads)
+add_test(NAME example.ring_loop COMMAND plumb_ring_loop)
+set_tests_properties(example.ring_loop PROPERTIES LABELS core TIMEOUT 60
+  PASS_REGULAR_EXPRESSION "suspect -> degraded  cause isolated_fault.*samples lost: 0")
 enable_language(C)
 add_executable(plumb_monitor_loop_c "${PROJECT_SOURCE_DIR}/examples/embed/monitor_loop.c")
 set_target_properties(plumb_monitor_loop_c PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF LINKER_LANGUAGE CXX)
@@ -481,7 +488,7 @@ set_tests_properties(example.attitude_figure PROPERTIES LABELS core SKIP_RETURN_
 
 # What the tests with the label core run: the gates of .ci/run that compile floors 1 to 4 again build no more than this.
 add_custom_target(plumb_core_checks)
-add_dependencies(plumb_core_checks plumb_core_tests plumb_monitor_loop plumb_monitor_loop_c plumb_nav_loop
+add_dependencies(plumb_core_checks plumb_core_tests plumb_monitor_loop plumb_monitor_loop_c plumb_ring_loop plumb_nav_loop
   plumb_attitude_filter plumb_survey_station plumb_example_tests plumb_core_ideas)
 if(TARGET plumb_flight_through_a_failure)
   add_dependencies(plumb_core_checks plumb_flight_through_a_failure plumb_autopilots_in_flight)

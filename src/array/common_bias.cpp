@@ -9,6 +9,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// Reversing sensors leaves H'H as it is: all that changes with the polarities s is the sum of the s_i h_i.

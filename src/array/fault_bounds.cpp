@@ -8,6 +8,10 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+using numbers::kInfinity;
+
 namespace {
 
 /// A reading this much beyond its slack, relative, still touches it: corners where more than three sensors meet.

@@ -11,6 +11,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 using array_detail::Rows;

@@ -9,6 +9,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// n axes at equal azimuths, the first above x, with the given cosine and sine of the half angle.

@@ -10,6 +10,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 constexpr int pairs_of(int n) noexcept { return n * (n - 1) / 2; }
@@ -100,12 +103,12 @@ AttitudeProducts::AttitudeProducts(const Vec3& g_mps2) noexcept {
 }
 
 double RowUncertainty::at(int i, int j, const AttitudeProducts& attitude) const noexcept {
-  const double misfit = i == j ? misfit_mps2[plumb::at(i)] : 0.0;
+  const double misfit = i == j ? misfit_mps2[numbers::at(i)] : 0.0;
   return of_parameters_at(i, j, attitude) + misfit * misfit;
 }
 
 double RowUncertainty::of_parameters_at(int i, int j, const AttitudeProducts& attitude) const noexcept {
-  const std::size_t rows = 4 * plumb::at(i >= j ? i : j), columns = 4 * plumb::at(i >= j ? j : i);
+  const std::size_t rows = 4 * numbers::at(i >= j ? i : j), columns = 4 * numbers::at(i >= j ? j : i);
   std::size_t at = rows * (rows + 1) / 2 + columns;
   double sum = 0.0;
   for (std::size_t p = 0; p < 4; at += rows + ++p) {
@@ -135,7 +138,7 @@ SensorSet RowUncertainty::without_variance(int sensors) const noexcept {
   SensorSet out;
   for (int i = 0; i < sensors; ++i) {
     const auto variance = [this, i](int p) {
-      return covariance[plumb::at((4 * i + p) * (4 * i + p + 1) / 2 + 4 * i + p)];
+      return covariance[numbers::at((4 * i + p) * (4 * i + p + 1) / 2 + 4 * i + p)];
     };
     const double of_row = variance(0) + variance(1) + variance(2);
     if (!(of_row > kNone && variance(3) > kNone)) out = out.with(i);
@@ -145,7 +148,7 @@ SensorSet RowUncertainty::without_variance(int sensors) const noexcept {
 
 bool RowUncertainty::is_covariance() const noexcept {
   constexpr double kLeastShare = 1e-6, kMostVariance = 1e12;
-  const auto entry = [this](int a, int b) { return covariance[plumb::at(a * (a + 1) / 2 + b)]; };
+  const auto entry = [this](int a, int b) { return covariance[numbers::at(a * (a + 1) / 2 + b)]; };
   double largest = 0.0;
   for (int a = 0; a < 4 * kCapacity; ++a) largest = std::fmax(largest, entry(a, a));
   if (!(largest <= kMostVariance) || !(common_scale >= 0.0 && common_scale <= 1.0)) return false;

@@ -9,6 +9,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 Vec3 row_of(const Mat3& m, std::size_t r) noexcept { return {m[3 * r], m[3 * r + 1], m[3 * r + 2]}; }

@@ -6,6 +6,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 constexpr double kTogether = 2.0;

@@ -7,6 +7,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// Eigenvalues below this times the largest are rounding.

@@ -5,6 +5,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace fit {
 namespace {
 

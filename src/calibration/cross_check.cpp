@@ -9,6 +9,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// Variance of a weighted sum of the readings: noise of the mean, misfit, covariance of the fit.

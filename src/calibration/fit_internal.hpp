@@ -16,6 +16,8 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace fit {
 
+using numbers::at;
+
 using Parameters = std::array<double, kFitParameters>;
 
 /// Eqs (1) and (2): c0 + c1 t + c2 t^2 + c3 t^3.

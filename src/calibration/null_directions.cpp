@@ -9,6 +9,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 constexpr int kBasis = kMaxNullDirections + 3;  // and three rotations

@@ -10,6 +10,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// The grid: inclinations from 0 to 180 deg, toolfaces all around, the two verticals once each.

@@ -9,6 +9,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// A pivot below this times the largest entry of I - M is taken for zero.

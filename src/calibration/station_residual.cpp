@@ -5,6 +5,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 StationResidual station_residual(const Calibration& calibration, const GravityReference& gravity,
                                  const Station& station) noexcept {
   StationResidual out;

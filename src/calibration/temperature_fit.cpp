@@ -8,6 +8,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// Temperatures at which the shape of a scale factor is looked at.

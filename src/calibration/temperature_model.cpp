@@ -7,6 +7,10 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+using numbers::kInfinity;
+
 namespace fit {
 namespace {
 

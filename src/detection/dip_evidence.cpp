@@ -6,6 +6,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {}  // namespace
 
 const char* to_string(DipVerdict verdict) noexcept {

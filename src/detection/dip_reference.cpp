@@ -7,6 +7,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 /// Limits are wider by so much, relative to what they are about: rounding, and the ends of a range that is a point.

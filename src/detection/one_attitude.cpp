@@ -45,11 +45,11 @@ OneAttitude::OneAttitude(const SensorArray& array, const GravityReference& gravi
     if (!array.triple(k).votes) continue;
     const double d = allowance(array, budget, k);
     for (int m = 0; m < 3; ++m) {
-      Entry& entry = entries_[plumb::at(triples_)][plumb::at(m)];
+      Entry& entry = entries_[numbers::at(triples_)][numbers::at(m)];
       entry.weight = triple_weight(array, k, m);
       entry.reach = (2.0 * g_mps2_ * d + d * d) / dot(entry.weight, entry.weight);
     }
-    sensors_[plumb::at(triples_)] = array.triple(k).sensors;
+    sensors_[numbers::at(triples_)] = array.triple(k).sensors;
     ++triples_;
   }
 }
@@ -57,7 +57,7 @@ OneAttitude::OneAttitude(const SensorArray& array, const GravityReference& gravi
 template <class F>
 void OneAttitude::for_each(F&& f) const noexcept {
   for (int t = 0; t < triples_; ++t) {
-    for (std::size_t m = 0; m < 3; ++m) f(int{sensors_[plumb::at(t)][m]}, entries_[plumb::at(t)][m]);
+    for (std::size_t m = 0; m < 3; ++m) f(int{sensors_[numbers::at(t)][m]}, entries_[numbers::at(t)][m]);
   }
 }
 

@@ -12,6 +12,10 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+using numbers::kInfinity;
+
 namespace {
 
 using std::size_t;

@@ -14,6 +14,10 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+using numbers::kInfinity;
+
 namespace {
 
 using detection_detail::largest_eigenvalue;

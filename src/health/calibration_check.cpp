@@ -11,6 +11,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 using std::size_t;

@@ -7,6 +7,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 /// Of a scale, relative: beyond what any drift sigma that a configuration may name lets pass (three times 0.1).

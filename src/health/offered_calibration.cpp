@@ -8,6 +8,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 using Row = std::array<double, 4>;         // of a sensor's parameters: W_x, W_y, W_z, b

@@ -11,6 +11,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 static_assert(std::is_trivially_copyable<Recalibration>::value, "a copy is an assignment");
 
 namespace {

@@ -11,6 +11,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 /// The nine harmonics of gravity that its length sees need nine directions ...

@@ -9,6 +9,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 /// What the fit cannot explain is a reason to refuse it; nothing is asked of the axes.

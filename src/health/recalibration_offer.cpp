@@ -6,6 +6,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 /// Of a change, the part that moves the vector and leaves the readings in agreement, whatever the attitude. The

@@ -8,6 +8,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 namespace {
 
 constexpr int kParameters = 4;  // kappa G, a

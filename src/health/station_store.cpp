@@ -9,6 +9,8 @@
 namespace plumb {
 inline namespace PLUMB_ABI {
 
+using numbers::at;
+
 static_assert(std::is_trivially_copyable<StationStore>::value, "a copy is an assignment");
 
 namespace {

@@ -10,6 +10,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::at;
+
 namespace {
 
 constexpr int kMaxSteps = 60;  // for one eigenvalue; fewer than two are usual

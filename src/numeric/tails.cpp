@@ -8,6 +8,9 @@
 
 namespace plumb {
 inline namespace PLUMB_ABI {
+
+using numbers::kInfinity;
+
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
