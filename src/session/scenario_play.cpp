@@ -19,8 +19,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace session {
 
-namespace {
-
 /// What is written of a vector: "gx_mps2,gy_mps2,gz_mps2", "mag_x_nt,mag_y_nt,mag_z_nt".
 class TruthVector {
  public:
@@ -60,8 +58,6 @@ class TruthVector {
   const io::ArrayFile& array_;
   Mat3 turn_{};
 };
-
-}  // namespace
 
 /// The truth as a table. Where the log has one row per station, so has this one.
 class TruthFile {
