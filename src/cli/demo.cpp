@@ -1,8 +1,10 @@
 // plumb demo: what plumb does, in six sections, on simulated tools. No file needed.
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "demo_section.hpp"
 #include "plumb/io/output_file.hpp"
@@ -21,7 +23,7 @@ struct DemoOptions {
 };
 
 /// In the order of the page.
-constexpr io::FileExpected<DemoSection> (*kSections[])(const DemoContext&) = {
+constexpr std::array<io::FileExpected<DemoSection> (*)(const DemoContext&), 6> kSections = {
     demo_geometry, demo_calibration, demo_gravity_error, demo_table2, demo_drill_a, demo_drill_b,
 };
 
@@ -41,6 +43,33 @@ io::FileExpected<void> make_directory(const std::string& path) {
   if (!error) return {};
   return tl::unexpected<io::FileError>(io::FileError{path, 0, "", "cannot create the directory: " + error.message(),
                                                      "choose another directory with --out", io::ExitCode::other});
+}
+
+constexpr std::size_t kDrills = 2;
+/// In the order of their work, the drills first: the page opens with what they show.
+constexpr std::array<std::size_t, kSections.size()> kWorkOrder = {4, 5, 0, 1, 2, 3};
+
+/// What it comes to, ahead of how it comes about.
+render::Chapter result_of(const std::vector<const DemoSection*>& drills, std::string& console) {
+  render::Chapter out;
+  out.id = "result";
+  out.title = "The result";
+  out.gist = "How wrong the inclination gets when sensors fail, without plumb and with it.";
+  out.text = {
+      "Two surveys during which accelerometers fail. Without plumb the tool goes on as if nothing had happened: the "
+      "plain least-squares answer of all its sensors. With plumb every output that is published as valid or degraded "
+      "stays right. Each figure is the worst of its run; the drills below show it block by block."};
+  for (const DemoSection* drill : drills) {
+    const auto figure = [drill](const char* key) { return drill->facts[key].get<double>(); };
+    const double without_deg = figure("worst_inclination_error_without_plumb_deg"),
+                 with_deg = figure("worst_inclination_error_valid_or_degraded_deg");
+    const std::string name = drill->chapter.title.substr(drill->chapter.title.find(' ') + 1);
+    out.figures.push_back({fmt::format("{:.2g}°", without_deg), name + ": wrong by, without plumb", "bad"});
+    out.figures.push_back({fmt::format("{:.2g}°", with_deg), name + ": wrong by, with plumb", "good"});
+    console += fmt::format("{}: inclination wrong by {:.2g} deg without plumb, by {:.2g} deg with it\n", name,
+                           without_deg, with_deg);
+  }
+  return out;
 }
 
 /// Why pictures are missing, or nothing.
@@ -71,12 +100,26 @@ io::ExitCode run_demo(const DemoOptions& options) {
   facts["seed"] = options.seed;
   facts["version"] = kVersion;
   print(fmt::format("plumb demo, seed {}\n\n", options.seed));
-  for (const auto section : kSections) {
-    io::FileExpected<DemoSection> done = section(context);
+  std::array<DemoSection, kSections.size()> sections;
+  std::vector<const DemoSection*> drills;
+  for (const std::size_t k : kWorkOrder) {
+    io::FileExpected<DemoSection> done = kSections[k](context);
     if (!done) return report(done.error());
-    print_now(done->console);
-    facts["sections"][done->chapter.id] = std::move(done->facts);
-    page.chapters.push_back(std::move(done->chapter));
+    sections[k] = *std::move(done);
+    if (drills.size() < kDrills) {
+      drills.push_back(&sections[k]);
+      if (drills.size() < kDrills) continue;
+      std::string result;
+      page.chapters.push_back(result_of(drills, result));
+      print_now(result + "\n");
+    } else {
+      print_now(sections[k].console);
+    }
+  }
+  for (const DemoSection* drill : drills) print_now(drill->console);
+  for (DemoSection& section : sections) {
+    facts["sections"][section.chapter.id] = std::move(section.facts);
+    page.chapters.push_back(std::move(section.chapter));
   }
   const auto path = [&options](const char* name) { return (std::filesystem::path(options.out) / name).string(); };
   io::FileExpected<void> written = io::write_file(path("demo.json"), facts.dump(1) + "\n");

@@ -251,8 +251,8 @@ std::vector<render::Figure> key_figures(const DrillRecord& record) {
     out.push_back({after(excluded), "from the first fault to the exclusion of " +
                                         (excluded == nullptr ? std::string("a sensor") : excluded->sensors)});
   }
-  out.push_back({degrees(f.plain_deg), "worst inclination error without plumb"});
-  out.push_back({degrees(f.published_deg), "worst error of an output published as valid"});
+  out.push_back({degrees(f.plain_deg), "worst inclination error without plumb", "bad"});
+  out.push_back({degrees(f.published_deg), "worst error of an output published as valid", "good"});
   return out;
 }
 

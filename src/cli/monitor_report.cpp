@@ -8,7 +8,6 @@
 
 #include "plot_files.hpp"
 #include "plumb/findings/geometry_study.hpp"
-#include "plumb/io/calibration_file.hpp"
 #include "plumb/io/field_json.hpp"
 #include "plumb/io/file_error.hpp"
 #include "plumb/io/json_fields.hpp"
@@ -109,15 +108,20 @@ std::optional<io::FileError> report_misuse(const MonitorOptions& options) {
 }
 
 HealthReport::HealthReport(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& sensors,
-                           double days, io::OutputFile page, io::OutputFile data)
+                           double days, std::optional<io::CalibrationFile> calibration, io::OutputFile page,
+                           io::OutputFile data)
     : options_(options),
       array_(array),
       sensors_(sensors),
       days_(days),
+      calibration_(std::move(calibration)),
       page_(std::move(page)),
       data_(std::move(data)),
       health_(array.output_frame, array.input.rows == io::RowKind::stations, array.monitor.acceleration_bound_mps2),
-      depth_m_(std::nan("")) {}
+      depth_m_(std::nan("")) {
+  if (calibration_)
+    residuals_.emplace(calibration_->calibration.model, calibration_->calibration.array, array.monitor.window);
+}
 
 io::FileExpected<std::unique_ptr<HealthReport>> HealthReport::create(const MonitorOptions& options,
                                                                      const io::ArrayFile& array,
@@ -128,24 +132,26 @@ io::FileExpected<std::unique_ptr<HealthReport>> HealthReport::create(const Monit
   io::FileExpected<io::OutputFile> data =
       io::OutputFile::create(health_data_path(options.report), io::OutputFile::Mode::whole);
   if (!data) return tl::unexpected<io::FileError>(data.error());
-  return std::unique_ptr<HealthReport>(
-      new HealthReport(options, array, sensors, days_since_calibration, *std::move(page), *std::move(data)));
+  std::optional<io::CalibrationFile> calibration;
+  if (!options.calibration.empty()) {
+    io::FileExpected<io::CalibrationFile> read = io::read_calibration(options.calibration, array);
+    if (!read) return tl::unexpected<io::FileError>(read.error());
+    calibration = *std::move(read);
+  }
+  return std::unique_ptr<HealthReport>(new HealthReport(options, array, sensors, days_since_calibration,
+                                                        std::move(calibration), *std::move(page), *std::move(data)));
 }
 
 io::FileExpected<void> HealthReport::take(const Sample& sample, const Verdict& verdict) {
   health_.take(sample, verdict, depth_m_);
+  if (residuals_) residuals_->take(sample, verdict, depth_m_);
   return {};
 }
 
 io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const render::MotionTold& motion) {
   io::FileExpected<Json> inputs = inputs_of(options_, array_, run);
   if (!inputs) return tl::unexpected<io::FileError>(inputs.error());
-  std::optional<io::CalibrationFile> calibration;
-  if (!options_.calibration.empty()) {
-    io::FileExpected<io::CalibrationFile> read = io::read_calibration(options_.calibration, array_);
-    if (!read) return tl::unexpected<io::FileError>(read.error());
-    calibration = *std::move(read);
-  }
+  const io::CalibrationFile* const calibration = calibration_ ? &*calibration_ : nullptr;
   if (render::common_cause_of(run, array_)) health_.doubt("one cause may have moved several sensors of one direction");
   if (!doubt_.empty()) health_.doubt(doubt_);
   beside_ = render::note_actions(run, array_, sensors_);
@@ -156,10 +162,11 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const
   Json report = render::health_json(health_, sensors_, beside_);
   if (!groups_.is_null()) report["groups"] = groups_;
   put_counts(run, array_, sensors_, report["extremes"]);
+  report["residuals"] = residuals_ ? render::residuals_json(*residuals_, sensors_) : Json();
   report["motion"] = render::motion_report_json(motion, motion_, array_);
-  report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);
+  report["basis"] = render::basis_json(array_, calibration, days_);
   report["detection_sizes"] = calibration ? sizes_of(array_, *calibration, days_) : Json();
-  const findings::WiringCheck wiring = findings::check_wiring_of(calibration ? &*calibration : nullptr, array_);
+  const findings::WiringCheck wiring = findings::check_wiring_of(calibration, array_);
   report["basis"]["wiring"] = render::wiring_json(wiring, array_);
   report["answer"]["open_items"] = render::wiring_items(wiring, array_);
   const char* const ended = run.stopped ? "in an error" : (run.interrupted ? "by an interruption" : "log complete");

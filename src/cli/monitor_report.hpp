@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "monitor_options.hpp"
+#include "plumb/io/calibration_file.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/motion_words.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
+#include "plumb/verification/residual_trace.hpp"
 #include "plumb/verification/tool_health.hpp"
 
 namespace plumb {
@@ -48,14 +50,16 @@ class HealthReport : public session::VerdictSink {
 
  private:
   HealthReport(const MonitorOptions& options, const io::ArrayFile& array, const SensorArray& sensors, double days,
-               io::OutputFile page, io::OutputFile data);
+               std::optional<io::CalibrationFile> calibration, io::OutputFile page, io::OutputFile data);
 
   const MonitorOptions& options_;
   const io::ArrayFile& array_;
   const SensorArray& sensors_;
-  double days_;  ///< since the calibration
+  double days_;                                     ///< since the calibration
+  std::optional<io::CalibrationFile> calibration_;  ///< none: the run calibrates itself
   io::OutputFile page_, data_;
   verification::ToolHealth health_;
+  std::optional<verification::ResidualTrace> residuals_;  ///< by the calibration file, where there is one
   session::MotionTrace motion_;
   std::vector<std::string> beside_;  ///< what else is to be done
   std::string doubt_;

@@ -15,6 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// One chart as a page holds it. What it printed of its axes is in the page from then on.
+io::FileExpected<std::string> read_chart(const std::string& directory, const std::string& name) {
+  const fs::path path = fs::path(directory) / name;
+  const io::FileExpected<std::string> svg = io::read_file(path.string());
+  if (!svg) return tl::unexpected<io::FileError>(svg.error());
+  const std::string told = path.string() + render::kAxesSuffix;
+  std::error_code ignored;
+  std::string axes;
+  if (fs::exists(told, ignored)) {
+    const io::FileExpected<std::string> text = io::read_file(told);
+    if (!text) return tl::unexpected<io::FileError>(text.error());
+    axes = *text;
+    fs::remove(told, ignored);
+  }
+  return render::inline_svg(*svg, axes);
+}
+
 /// A directory of its own, removed with all that is in it.
 class Scratch {
  public:
@@ -39,7 +56,8 @@ class Scratch {
 
 io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
                                                       const std::vector<render::PlotFile>& files, const char* script,
-                                                      std::vector<std::string> pictures, std::string& missing) {
+                                                      std::vector<std::string> pictures, std::string& missing,
+                                                      render::DrawnFor drawn_for) {
   std::error_code error;
   fs::create_directories(directory, error);
   if (error) {
@@ -53,7 +71,7 @@ io::FileExpected<std::vector<std::string>> draw_files(const std::string& directo
     if (!done) return tl::unexpected<io::FileError>(done.error());
     written.push_back(file.name);
   }
-  const io::FileExpected<void> drawn = render::run_gnuplot(directory, script);
+  const io::FileExpected<void> drawn = render::run_gnuplot(directory, script, drawn_for);
   if (!drawn) {
     missing = drawn.error().text();
     return written;
@@ -65,16 +83,24 @@ io::FileExpected<render::PagePictures> draw_pictures(const std::string& director
                                                      const std::vector<render::PlotFile>& files, const char* script,
                                                      const std::vector<std::string>& names) {
   std::string missing;
-  const io::FileExpected<std::vector<std::string>> drawn = draw_files(directory, files, script, names, missing);
+  const io::FileExpected<std::vector<std::string>> drawn =
+      draw_files(directory, files, script, names, missing, render::DrawnFor::page);
   if (!drawn) return tl::unexpected<io::FileError>(drawn.error());
   render::PagePictures out;
+  if (missing.empty()) {
+    const io::FileExpected<void> narrow = render::run_gnuplot(directory, script, render::DrawnFor::phone);
+    if (!narrow) missing = narrow.error().text();
+  }
   if (!missing.empty()) print_error("plumb: " + missing + "\n");
   for (const std::string& name : names) {
-    render::PagePicture picture{"", missing};
+    render::PagePicture picture{"", missing, ""};
     if (missing.empty()) {
-      const io::FileExpected<std::string> svg = io::read_file((fs::path(directory) / name).string());
+      const io::FileExpected<std::string> svg = read_chart(directory, name);
       if (!svg) return tl::unexpected<io::FileError>(svg.error());
-      picture.svg = render::inline_svg(*svg);
+      const io::FileExpected<std::string> narrow = read_chart(directory, render::kNarrowPrefix + name);
+      if (!narrow) return tl::unexpected<io::FileError>(narrow.error());
+      picture.svg = *svg;
+      picture.narrow = *narrow;
     }
     out.emplace(name, std::move(picture));
   }
@@ -98,7 +124,7 @@ render::PagePictures draw_for_page(const std::vector<render::PlotFile>& files, c
     failure = drawn.error();
   }
   print_error("plumb: " + failure.text() + "\n");
-  for (const std::string& name : names) out.emplace(name, render::PagePicture{"", failure.text()});
+  for (const std::string& name : names) out.emplace(name, render::PagePicture{"", failure.text(), ""});
   return out;
 }
 

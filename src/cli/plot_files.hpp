@@ -6,6 +6,7 @@
 
 #include "plumb/io/file_error.hpp"
 #include "plumb/render/fit_plot.hpp"
+#include "plumb/render/plot.hpp"
 #include "plumb/render/verification_page.hpp"
 
 namespace plumb {
@@ -17,7 +18,8 @@ namespace cli {
 /// directory cannot be written.
 io::FileExpected<std::vector<std::string>> draw_files(const std::string& directory,
                                                       const std::vector<render::PlotFile>& files, const char* script,
-                                                      std::vector<std::string> pictures, std::string& missing);
+                                                      std::vector<std::string> pictures, std::string& missing,
+                                                      render::DrawnFor drawn_for = render::DrawnFor::itself);
 
 /// The same, ready to stand in a page. Where gnuplot cannot draw, standard error and each picture say why.
 io::FileExpected<render::PagePictures> draw_pictures(const std::string& directory,

@@ -10,6 +10,7 @@
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/evidence.hpp"
+#include "plumb/render/paper.hpp"
 #include "plumb/render/plot.hpp"
 #include "plumb/render/verification_exports.hpp"
 #include "plumb/render/verification_page.hpp"
@@ -112,14 +113,10 @@ class Folder {
   std::optional<io::FileError> failure_;
 };
 
-/// The page on paper. weasyprint 57 cannot draw a line in the colour of the text around it, so that colour is spelled
-/// out.
-void print_pdf(const std::string& out, std::string html) {
-  const std::string word = "currentColor";
-  for (std::size_t at = html.find(word); at != std::string::npos; at = html.find(word, at))
-    html.replace(at, word.size(), "#000000");
+/// The page on paper.
+void print_pdf(const std::string& out, const std::string& html) {
   const std::string copy = (fs::path(out) / "report-print.html").string();
-  io::FileExpected<void> done = io::write_file(copy, html);
+  io::FileExpected<void> done = io::write_file(copy, render::for_paper(html));
   if (done)
     done = render::run_program(out, "weasyprint", {"--quiet", "report-print.html", "report.pdf"}, "weasyprint", "PDF");
   std::error_code ignored;

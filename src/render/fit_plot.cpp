@@ -31,7 +31,9 @@ constexpr std::size_t kFewCosts = 8;
 constexpr const char* kColours =
     "found = '#2f78b7'\nheld = '#c98a00'\nodd = '#c53a3a'\nprior = '#8a8a8a'\nnext = '#2c8f57'\n";
 
-std::string terminal(const char* name, int width, int height) { return chart_head(name, width, height) + kColours; }
+std::string terminal(const char* name, int width, int height) {
+  return chart_head(name, width, height, height) + kColours;
+}
 
 /// An id as one word that neither CSV nor gnuplot takes apart.
 std::string word(std::string id) {

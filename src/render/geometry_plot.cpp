@@ -28,7 +28,7 @@ bool is_magnetic(const GeometryPictures& p) { return p.field == io::FieldKind::m
 
 /// Two maps, one above the other.
 std::string map_script(const GeometryPictures& p) {
-  std::string out = chart_head(kMap, 1000, 900);
+  std::string out = chart_head(kMap, 1000, 900, 720);
   // A pixel reaches half a step beyond its attitude. Both ends of the palette are readable on either background.
   const double half = p.map.size() > 1 ? 0.5 * (p.map[1].toolface_deg - p.map[0].toolface_deg) : 0.0;
   out += fmt::format(
@@ -43,6 +43,7 @@ std::string map_script(const GeometryPictures& p) {
         "noenhanced\n"
         "set cblabel '{}'\nplot 'geometry-attitudes.csv' skip 1 using 2:1:{} with image notitle\n",
         top, bottom, title, unit, column);
+    out += axes_told("toolface, deg", "inclination, deg");
   };
   out += "set format x ''\n";
   panel(0.93, 0.56, quoted(p.name) + ": any larger fault is isolated by the length of gravity at this attitude alone",
@@ -53,7 +54,7 @@ std::string map_script(const GeometryPictures& p) {
 }
 
 std::string protection_script(const GeometryPictures& p) {
-  return chart_head(kProtection, 800, 500) +
+  return chart_head(kProtection, 800, 500, 400) +
          fmt::format(
              "set tmargin 3\nset logscale xy\nset grid lw 0.4 lc rgb '#999999'\nset xlabel 'noise of one sample, 1 "
              "sigma, mg0'\n"
@@ -62,8 +63,9 @@ std::string protection_script(const GeometryPictures& p) {
              "set arrow 1 from {1}, graph 0 to {1}, graph 1 nohead dt 3 lc rgb '#8a8a8a'\n"
              "plot 'geometry-protection.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '#d0553c' "
              "title 'one sample', '' skip 1 using 1:3 with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '#2f78b7' title "
-             "'block of {2}'\nunset output\n",
-             quoted(p.name), p.sigma_fine, p.samples);
+             "'block of {2}'\n",
+             quoted(p.name), p.sigma_fine, p.samples) +
+         axes_told("noise, mg0", "protection level, deg", Log::both) + "unset output\n";
 }
 
 }  // namespace

@@ -134,6 +134,17 @@ Json health_json(const verification::ToolHealth& health, const SensorArray& arra
                      {"extremes", extremes_json(health.extremes(), array)}});
 }
 
+Json residuals_json(const verification::ResidualTrace& trace, const SensorArray& array) {
+  Json points = Json::array();
+  for (const verification::ResidualPoint& p : trace.points()) {
+    Json off = Json::array();
+    for (int i = 0; i < array.size(); ++i) off.push_back(known(true, p.off_mps2[static_cast<std::size_t>(i)]));
+    points.push_back(
+        io::object({{"t_s", p.time_s}, {"depth_m", known(true, p.depth_m)}, {"off_mps2", std::move(off)}}));
+  }
+  return io::object({{"sensors", io::ids_of(array.all(), array)}, {"points", std::move(points)}});
+}
+
 }  // namespace render
 }  // namespace PLUMB_ABI
 }  // namespace plumb

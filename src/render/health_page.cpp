@@ -11,6 +11,7 @@
 #include "plumb/render/figures.hpp"
 #include "plumb/render/measured_words.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "sign_off.hpp"
 #include "size_fields.hpp"
 
 namespace plumb {
@@ -66,7 +67,6 @@ Section groups_view(const Json& report) {
 Section answer_view(const Json& report) {
   const Json& a = report["answer"];
   Section out("verdict", "1 Answer", "Whether this tool may be used for a survey, and what to do.");
-  out.notice(a["sentence"], tone_of_colour(a["usable_for_survey"]));
   std::vector<std::string> actions;
   for (const Json& action : a["actions"]) actions.push_back(action);
   out.list("What to do", actions);
@@ -77,17 +77,19 @@ Section answer_view(const Json& report) {
     out.notice("What this run cannot show is still open. Inclination and toolface rest on it.", "open");
     out.list("Open items", open);
   }
-  out.figures({{"Usable for survey", a["usable_for_survey"], "the tool as it is at the end of the run"},
-               {"Green stations", a["green"].dump(), "use them"},
-               {"Orange stations", a["orange"].dump(), "for orientation only"},
-               {"Red stations", a["red"].dump(), "do not use them"}});
+  const auto coloured = [&a](const char* key, const char* tone) { return a[key] == 0 ? "" : tone; };
+  out.figures({{"Usable for survey", a["usable_for_survey"], "the tool as it is at the end of the run",
+                tone_of_colour(a["usable_for_survey"])},
+               {"Green stations", a["green"].dump(), "use them", coloured("green", "good")},
+               {"Orange stations", a["orange"].dump(), "for orientation only", coloured("orange", "open")},
+               {"Red stations", a["red"].dump(), "do not use them", coloured("red", "bad")}});
   out.table("The monitor at the end", {"question", "answer"},
             {{"state", a["state"].get<std::string>() + ": " + a["state_means"].get<std::string>()},
              {"output", a["output"]},
-             {"sensors in service", joined_list(a["in_service"])},
-             {"excluded", joined_list(a["excluded"])},
-             {"provisionally excluded", joined_list(a["provisionally_excluded"])},
-             {"absent", joined_list(a["absent"])}});
+             {"sensors in service", sensors_cell(a["in_service"])},
+             {"excluded", sensors_cell(a["excluded"])},
+             {"provisionally excluded", sensors_cell(a["provisionally_excluded"])},
+             {"absent", sensors_cell(a["absent"])}});
   return out;
 }
 
@@ -100,7 +102,7 @@ ViewRows station_rows(const Json& report) {
                     shown(s["off_mps2"], kMg0), shown(s["length_limit_mps2"], kMg0),
                     with_sigma(s["inclination_deg"], s["inclination_sigma_deg"]),
                     with_sigma(s["toolface_deg"], s["toolface_sigma_deg"]), s["protection_level_calibrated_axes_deg"],
-                    s["protection_level_housing_deg"], joined_list(s["used"]), why(s)});
+                    s["protection_level_housing_deg"], sensors_cell(s["used"]), why(s)});
   }
   return rows;
 }
@@ -114,8 +116,21 @@ Section stations_view(const Json& report, const PagePictures& pictures) {
   out.picture("From station to station", picture_of(pictures, "run.svg"),
               "Length of gravity less its reference, with its limit, inclination, and the largest statistic of the "
               "tests over its limit, by station and colour",
-              "Limit of |G|: three standard deviations of reference, noise and calibration together. Statistic: of "
+              "Over depth where the log has it and the tool moved one way, else over time. A length far beyond the "
+              "others is drawn at "
+              "the edge, with its value. Limit of |G|: three standard deviations of reference, noise and calibration "
+              "together. Statistic: of "
               "parity, norm or MAE, whichever came nearest to its own limit in the station; above 1 is an alarm.");
+  if (report["residuals"].is_null()) {
+    out.text("Sensor by sensor: not drawn, because there was no calibration file to read the sensors by.");
+  } else {
+    out.picture(
+        "Sensor by sensor", picture_of(pictures, "residuals.svg"),
+        "Reading of every sensor less what the sensors in service say along its axis, over the run",
+        "Of blocks at rest, in one scale for all sensors. A sensor that leaves the scale is drawn at its edge, with "
+        "the largest value. A trace that bends away slowly is a drift, a step is a fault; all traces at once are a "
+        "disturbed tool.");
+  }
   out.table(
       "Stations",
       {"station", "t, s", "depth, m", "verdict", "|G|, mg0", "off by, mg0", "limit, mg0", "inclination, deg",
@@ -149,7 +164,7 @@ Section events_view(const Json& report) {
   Section out("events", "4 Events", "Every change that the monitor reported, and why.");
   ViewRows rows;
   for (const Json& e : report["events"])
-    rows.push_back({e["sequence"], seconds(e["t_s"]), e["from"], e["to"], e["cause"], joined_list(e["sensors"]),
+    rows.push_back({e["sequence"], seconds(e["t_s"]), e["from"], e["to"], e["cause"], sensors_cell(e["sensors"]),
                     e["statistic"], e["limit"], e["why"]});
   if (rows.empty()) {
     out.text("No change.");
@@ -245,11 +260,10 @@ Section extremes_view(const Json& report) {
             rows,
             "Blocks at rest are counted. Scattering: one sensor scattered more than its noise; its own scatter is that "
             "in these blocks. Drift rate: below every limit, as if this sensor alone drifted; positive where its "
-            "reading grows; 1 sigma is at most a sixth of it.");
+            "reading grows; 1 sigma is at most a sixth of it.",
+            Fold::when_long);
   return out;
 }
-
-std::string told(const Json& text) { return text.get<std::string>().empty() ? "unknown" : text.get<std::string>(); }
 
 Section basis_view(const Json& report) {
   const Json& basis = report["basis"];
@@ -297,13 +311,9 @@ Section basis_view(const Json& report) {
   out.table("Coefficients by sensor",
             {"sensor", "bias, mg0", "scale, raw per m/s^2", "x", "y", "z", "noise of a sample, mg0",
              "left by the calibration, mg0", "rms residual, mg0"},
-            rows, "At the reference temperature; every coefficient with all its digits stands in the data file.");
+            rows, "At the reference temperature; every coefficient with all its digits stands in the data file.",
+            Fold::when_long);
   return out;
-}
-
-std::string hash_of(const Json& input) {
-  return input.contains("sha256") ? "sha256 " + input["sha256"].get<std::string>()
-                                  : "fnv1a " + input["fnv1a"].get<std::string>();
 }
 
 Section identity_of(const Json& report) {
@@ -332,10 +342,10 @@ Section identity_of(const Json& report) {
 std::string health_html(const Json& report, const PagePictures& pictures, const std::string& data) {
   const Json& run = report["run"];
   const Json& id = report["identity"];
-  std::vector<Section> sections = {
-      answer_view(report),           stations_view(report, pictures), roll_view(report, pictures), events_view(report),
-      motion_view(report, pictures), extremes_view(report),           basis_view(report),          identity_of(report)};
-  if (report.contains("groups")) sections.insert(sections.begin(), groups_view(report));
+  std::vector<Section> sections = {health_sign_off(report),     answer_view(report), stations_view(report, pictures),
+                                   roll_view(report, pictures), events_view(report), motion_view(report, pictures),
+                                   extremes_view(report),       basis_view(report),  identity_of(report)};
+  if (report.contains("groups")) sections.insert(sections.begin() + 1, groups_view(report));
   return sections_html({"Tool health: " + id["name"].get<std::string>(),
                         fmt::format("{}, watched by plumb {}. Every figure is in {} beside this page.",
                                     count_text(report["extremes"]["sensors"].size(), "sensor"),

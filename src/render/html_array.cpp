@@ -33,10 +33,11 @@ void sensor_tables(const Json& array, Section& out) {
     least.push_back(page_row(s["id"], kThresholdFields, s["thresholds_mps2"], s[kBeyondKey]));
   }
   out.table("Sensors", {"sensor", "x", "y", "z", "noise of a sample, mg0", "nearest mirror axis, deg"}, axes,
-            "A sensor mounted on its mirror axis would pass in a group of three at every attitude.");
+            "A sensor mounted on its mirror axis would pass in a group of three at every attitude.", Fold::when_long);
   out.table("Sizes by sensor, mg0, in one block at any attitude, as stated", page_head("sensor", kThresholdFields),
             least,
-            "The last two are what the length of gravity tells at a single attitude; more attitudes remove the rest.");
+            "The last two are what the length of gravity tells at a single attitude; more attitudes remove the rest.",
+            Fold::when_long);
 }
 
 void limits_tables(const Json& array, Section& out) {
@@ -50,12 +51,12 @@ void limits_tables(const Json& array, Section& out) {
     levels.push_back({row["sigma_mg0"], row["one_sample_deg"], row["block_deg"]});
   if (!levels.empty())
     out.table("Protection level by noise", {"noise of a sample, mg0", "one sample, deg", "one block, deg"}, levels, "",
-              true);
+              Fold::omitted);
   for (const Json& t : array["triples"])
     triples.push_back({joined_list(t["sensors"]), t["det"], t["condition"],
                        t["near_singular"].get<bool>() ? "near singular" : "monitored"});
   if (!triples.empty())
-    out.table("Every group of three", {"sensors", "determinant", "condition", ""}, triples, "", true);
+    out.table("Every group of three", {"sensors", "determinant", "condition", ""}, triples, "", Fold::omitted);
   ViewRows hidden;
   for (const Json& h : array["unobservable_permutations"])
     hidden.push_back({h["what"], h["turn_deg"], h["inclination_deg"]});
@@ -66,7 +67,8 @@ void limits_tables(const Json& array, Section& out) {
   } else {
     out.table("Wiring errors that are not detectable at any attitude",
               {"mistake", "vector turned by, deg", "inclination off by, deg"}, hidden,
-              "By the axes of the datasheet. One station of known attitude excludes them: --known-attitude.", true);
+              "By the axes of the datasheet. One station of known attitude excludes them: --known-attitude.",
+              Fold::omitted);
   }
 }
 
@@ -83,7 +85,7 @@ void planned_tables(const Json& c, Section& out) {
   int number = 0;
   for (const Json& a : p["attitudes"])
     rows.push_back({std::to_string(++number), a["inclination_deg"], a["toolface_deg"]});
-  out.table("Attitudes to record", {"number", "inclination, deg", "toolface, deg"}, rows, "", true);
+  out.table("Attitudes to record", {"number", "inclination, deg", "toolface, deg"}, rows, "", Fold::omitted);
 }
 
 }  // namespace
@@ -91,10 +93,6 @@ void planned_tables(const Json& c, Section& out) {
 Section verdict_view(const Json& report) {
   const Json& v = report["verdict"];
   Section out("verdict", "1 Verdict", "The limits, the results, and their evidence.");
-  out.notice(v["sentence"].get<std::string>(), tone_of(v["verdict"]));
-  std::vector<std::array<std::string, 3>> figures;
-  for (const Json& a : v["answers"]) figures.push_back({a["question"], a["value"], a["label"]});
-  out.figures(figures);
   ViewRows rows;
   for (const verification::Criterion& c : criteria_of(report)) {
     // What a phone shows without being pushed stands first.
@@ -121,7 +119,7 @@ Section verdict_view(const Json& report) {
             "Verified: every test and formal item behind it was run and passed. Section 6 lists them.");
   if (!v["orphans"].empty()) out.list("Orphans", texts(v["orphans"]));
   out.picture(
-      "The argument", {inline_svg(argument_svg(report)), ""},
+      "The argument", {inline_svg(argument_svg(report)), "", ""},
       "The argument as a goal structure: the goal, six strategies, what each shows, and the section that holds the "
       "evidence.",
       "Goals are boxes, strategies are parallelograms, evidence is round. Green: shown; red: refuted; brown: open or "
@@ -129,7 +127,6 @@ Section verdict_view(const Json& report) {
   out.list("Assumptions", texts(v["assumptions"]));
   out.list("Known limits", texts(v["known_limits"]));
   out.text("This report is evidence for your own safety case. plumb is neither certified nor qualified.");
-  out.signature({"Name", "Role", "Date", "Signature"});
   return out;
 }
 
@@ -137,7 +134,7 @@ Section array_view(const Json& report, const PagePictures& pictures) {
   const Json& a = report["array"];
   const Json& f = a["figures_of_merit"];
   Section out("array", "2 The array", "What these axes can determine, by analysis.");
-  out.picture("Axes", {axes_svg(a), ""},
+  out.picture("Axes", {axes_svg(a), "", ""},
               "The axes of the sensors, drawn in space; the table below lists their components.",
               "Seen from above the xy plane; z points down the tool. Dashed: down to the xy plane.");
   put_sizes(a["detection_sizes"], out);
@@ -153,7 +150,7 @@ Section array_view(const Json& report, const PagePictures& pictures) {
                     {faulty + " isolated with confirmation (confirmed grade)", f["confirmed_grade"]},
                     {faulty + " excluded provisionally (provisional grade)", f["provisional_grade"]},
                     {"correlated " + faulty + " that can be isolated", f["correlated_grade"]},
-                    {"sensors without which there is no vector", joined_list(a["critical_sensors"])}};
+                    {"sensors without which there is no vector", sensors_cell(a["critical_sensors"])}};
   if (chips) merit.insert(merit.begin() + 4, std::vector<ViewCell>{"units: chips, and sensors on none", f["units"]});
   out.table("Figures of merit", {"figure", "value"}, merit);
   const char* map = "geometry-attitudes.svg";
@@ -196,7 +193,7 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
     ViewRows rows;
     for (const Json& s : c["sensors"])
       rows.push_back({s["id"], shown(s["e_cal_mps2"], kMg0), shown(s["residual_rms_mps2"], kMg0)});
-    out.table("What it leaves, mg0", {"sensor", "1 sigma in a reading", "residual, rms"}, rows);
+    out.table("What it leaves, mg0", {"sensor", "1 sigma in a reading", "residual, rms"}, rows, "", Fold::when_long);
   }
   const Json figures = c.contains("fit") ? c["fit"]["fit"] : c.value("file", Json::object());
   ViewRows rows;
@@ -227,7 +224,7 @@ Section calibration_view(const Json& report, const PagePictures& pictures) {
   }
   std::vector<std::string> titles = page_head("sensor", kSensorFields);
   titles.emplace_back("from data, %");
-  out.table("Parameters", titles, parameters);
+  out.table("Parameters", titles, parameters, "", Fold::when_long);
   if (!c["trace"].empty()) {
     out.picture(
         "Convergence", picture_of(pictures, "traces.svg"),

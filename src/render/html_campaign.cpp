@@ -81,7 +81,7 @@ void fault_table(const Json& faults, bool chips, Section& out) {
   out.table("Times from the onset, s",
             {"fault", chips ? "units" : "sensors", "detected", "median", "95 %", "last", "isolated", "median", "95 %",
              "last"},
-            times, "", true);
+            times, "", Fold::omitted);
 }
 
 /// The result of a longer campaign, which is what the verdict judges.
@@ -233,7 +233,7 @@ Section campaign_view(const Json& report, const PagePictures& pictures) {
           "bias, with intervals.",
           "Single constant errors; bars are 95 % intervals (97.5 % bounds at 0 and at all).", "by-size.csv");
       out.table("Detection and isolation by size, the data", {"from, MDB", "to, MDB", "detected", "isolated"}, sizes,
-                "", true);
+                "", Fold::omitted);
     }
     out.picture("Time to detect and to isolate", picture_of(pictures, "times.svg"),
                 "Share of the detected and of the isolated faults against the time since the onset.",
@@ -278,13 +278,13 @@ void coverage_tables(const Json& coverage, Section& out) {
     }
   }
   for (const auto& [mode, events] : cells) missed.push_back({mode, events});
-  out.table("States, in samples", {"state", "samples"}, states, "", true);
-  out.table("Transitions that were taken", {"from", "to", "times"}, moves, "", true);
+  out.table("States, in samples", {"state", "samples"}, states, "", Fold::omitted);
+  out.table("Transitions that were taken", {"from", "to", "times"}, moves, "", Fold::omitted);
   out.table(
       "Cells in which no replayed scenario left a record", {"state", "events"}, missed,
       "Cells that only count leave none, and what the host asks for and fits do not occur in campaigns. That tests "
       "and model reach every cell is shown by their results, where they are given (--test-results, --assurance).",
-      true);
+      Fold::omitted);
 }
 
 /// Proved, exhaustively checked and sampled are three different things, and stand in tables of their own.
@@ -317,7 +317,7 @@ Section machine_view(const Json& report) {
   Section out("machine", "5 State machine",
               "The one table that runs in the monitor, and where some replayed scenarios went.");
   const Json& coverage = machine["coverage"];
-  out.picture("States and transitions", {machine_svg(machine), ""},
+  out.picture("States and transitions", {machine_svg(machine), "", ""},
               "The states of the monitor; thick lines are transitions that the replayed scenarios took, thin ones "
               "those that the table allows.",
               "Thick: taken by the replayed scenarios. Thin: possible by the table.");

@@ -4,6 +4,7 @@
 #include "html_view.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/scenario/count_text.hpp"
+#include "sign_off.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -78,7 +79,7 @@ Section trace_view(const Json& report) {
             "Design element: the sources that share their name with a test of the requirement. Traced: tests exist, "
             "their results were not given.");
   out.table("Requirements in full, with their tests by name",
-            {"id", "statement", "methods", "verified by", "negative tests"}, texts, "", true);
+            {"id", "statement", "methods", "verified by", "negative tests"}, texts, "", Fold::omitted);
   ViewRows hazards, tests;
   for (const Json& h : t["hazards"])
     hazards.push_back({h["id"], h["title"], h["statement"], joined_list(h["requirements"])});
@@ -87,7 +88,8 @@ Section trace_view(const Json& report) {
     const std::string result = test["result"].is_string() ? test["result"].get<std::string>() : "not given";
     tests.push_back({test["name"], test["file"], joined_list(test["verifies"]), joined_list(test["negative"]), result});
   }
-  out.table("Back: tests to requirements", {"test", "file", "verifies", "negative for", "result"}, tests, "", true);
+  out.table("Back: tests to requirements", {"test", "file", "verifies", "negative for", "result"}, tests, "",
+            Fold::omitted);
   return out;
 }
 
@@ -111,7 +113,7 @@ Section identity_view(const Json& report) {
   for (const Json& i : identity["inputs"]) inputs.push_back({i["role"], i["name"], i["bytes"], i["sha256"]});
   out.table("Inputs", {"role", "file", "bytes", "SHA-256"}, inputs);
   for (const Json& l : build["libraries"]) libraries.push_back({l["name"], l["version"], l["licence"]});
-  out.table("Libraries", {"library", "version", "licence"}, libraries, "", true);
+  out.table("Libraries", {"library", "version", "licence"}, libraries, "", Fold::omitted);
   const Json& r = report["resources"];
   out.table("Resources", {"figure", "value"},
             {{"sensors", r["sensors"]},
@@ -171,9 +173,9 @@ std::string verification_html(const Json& report, const PagePictures& pictures) 
                         "Accelerations in mg0 = 0.001 x 9.80665 m/s^2; angles in deg; intervals are 95 % "
                         "Clopper-Pearson (97.5 % bounds at 0 and at all), rounded outwards.",
                         run_words(report["run"])},
-                       {verdict_view(report), array_view(report, pictures), calibration_view(report, pictures),
-                        campaign_view(report, pictures), machine_view(report), trace_view(report),
-                        identity_view(report), change_view(report)});
+                       {verification_sign_off(report), verdict_view(report), array_view(report, pictures),
+                        calibration_view(report, pictures), campaign_view(report, pictures), machine_view(report),
+                        trace_view(report), identity_view(report), change_view(report)});
 }
 
 }  // namespace render

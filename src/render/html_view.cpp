@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "markup.hpp"
+#include "page_script.hpp"
 #include "page_template.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/study/proportion.hpp"
@@ -79,6 +80,14 @@ std::string joined_list(const Json& list, const char* key) {
   return out.empty() ? "-" : out;
 }
 
+ViewCell sensors_cell(const Json& ids, const char* key) {
+  const std::string all = joined_list(ids, key);
+  if (ids.size() <= kShortList) return all;
+  ViewCell out(std::to_string(ids.size()) + " sensors");
+  out.rest = all;
+  return out;
+}
+
 Section::Section(std::string id, std::string title, std::string gist)
     : id_(std::move(id)), title_(std::move(title)), gist_(std::move(gist)) {}
 
@@ -94,6 +103,7 @@ data& Section::block(const char* kind, const std::string& title) {
 void Section::signature(const std::vector<std::string>& fields) { block("signature").set("fields", texts(fields)); }
 
 void Section::heading(const std::string& text) { block("heading").set("text", text); }
+void Section::stamp(const std::string& text) { block("stamp").set("text", text); }
 void Section::text(const std::string& text) { block("text").set("text", text); }
 
 void Section::notice(const std::string& text, const std::string& tone) {
@@ -102,20 +112,21 @@ void Section::notice(const std::string& text, const std::string& tone) {
   one.set("tone", tone);
 }
 
-void Section::figures(const std::vector<std::array<std::string, 3>>& answers) {
+void Section::figures(const std::vector<ViewFigure>& answers) {
   data list{data::type::list};
-  for (const auto& [question, value, label] : answers) {
+  for (const ViewFigure& answer : answers) {
     data figure;
-    set_text(figure, "question", question);
-    figure.set("value", value);
-    figure.set("label", label);
+    set_text(figure, "question", answer.question);
+    set_text(figure, "tone", answer.tone);
+    figure.set("value", answer.value);
+    figure.set("label", answer.label);
     list << figure;
   }
   block("figures").set("figures", list);
 }
 
 void Section::table(const std::string& title, const std::vector<std::string>& head, const ViewRows& rows,
-                    const std::string& note, bool folded) {
+                    const std::string& note, Fold fold) {
   std::vector<bool> numeric(head.size(), true);
   for (const std::vector<ViewCell>& row : rows) {
     for (std::size_t k = 0; k < numeric.size() && k < row.size(); ++k)
@@ -124,6 +135,7 @@ void Section::table(const std::string& title, const std::vector<std::string>& he
   const auto cell_data = [&numeric](const ViewCell& from, std::size_t column) {
     data cell;
     cell.set("text", from.text);
+    set_text(cell, "rest", from.rest);
     cell.set("n", column < numeric.size() && numeric[column]);
     const bool right = column < numeric.size() && numeric[column];
     const char* const width = from.text.size() > kLongCell ? "long " : "";
@@ -141,7 +153,11 @@ void Section::table(const std::string& title, const std::vector<std::string>& he
     lines << line;
   }
   data& one = block("table", title);
-  one.set("folded", folded);
+  const bool behind = fold == Fold::omitted || (fold == Fold::when_long && rows.size() > kShortTable);
+  one.set("folded", behind);
+  one.set("fold", fold == Fold::omitted ? "folded" : "long");
+  if (behind && fold == Fold::when_long)
+    one.set("title", fmt::format("{} ({} rows)", title.empty() ? title_ : title, rows.size()));
   one.set("head", heads);
   one.set("rows", lines);
   set_text(one, "note", note);
@@ -170,8 +186,12 @@ void Section::commands(const std::vector<std::string>& lines) { block("commands"
 void Section::picture(const std::string& title, const PagePicture& picture, const std::string& alt,
                       const std::string& caption, const std::string& csv) {
   data& one = block("picture", title);
+  const std::string own = id_ + "-" + std::to_string(++pictures_) + "-";
   one.set("has_svg", !picture.svg.empty());
-  one.set("svg", with_own_names(picture.svg, id_ + "-" + std::to_string(++pictures_) + "-"));
+  one.set("svg", with_own_names(picture.svg, own));
+  one.set("has_narrow", !picture.narrow.empty());
+  one.set("narrow", with_own_names(picture.narrow, own + "narrow-"));
+  if (!picture.svg.empty()) ++plots_;
   one.set("missing", picture.missing);
   if (!alt.empty()) one.set("label", alt);
   one.set("caption", caption);
@@ -190,12 +210,18 @@ data Section::take() {
 
 PagePicture picture_of(const PagePictures& pictures, const std::string& name) {
   const auto found = pictures.find(name);
-  return found == pictures.end() ? PagePicture{"", "it was not drawn"} : found->second;
+  return found == pictures.end() ? PagePicture{"", "it was not drawn", ""} : found->second;
 }
 
 std::string sections_html(const PageFrame& frame, std::vector<Section> sections) {
   data root, list{data::type::list};
-  for (Section& section : sections) list << section.take();
+  bool plots = false;
+  for (Section& section : sections) {
+    plots = plots || section.has_plots();
+    list << section.take();
+  }
+  root.set("script", kPageScript);
+  root.set("has_plots", plots);
   root.set("title", frame.title);
   root.set("lead", frame.lead);
   root.set("sections", list);

@@ -29,6 +29,7 @@ std::string shown_rate(const Json& rate);
 /// stands in a Json is shown as above.
 struct ViewCell {
   std::string text, tone, colour = "";
+  std::string rest = "";  ///< behind a click on the text
   ViewCell(std::string t, std::string how = "")
       : text(std::move(t)), tone(std::move(how)) {}  // NOLINT: a text is a cell
   ViewCell(const char* t) : text(t) {}               // NOLINT
@@ -36,6 +37,17 @@ struct ViewCell {
   ViewCell(const Value& value, std::string how = "") : text(shown(value)), tone(std::move(how)) {}  // NOLINT
 };
 using ViewRows = std::vector<std::vector<ViewCell>>;
+/// One of the few numbers that matter; `tone` as of a cell.
+struct ViewFigure {
+  std::string question, value, label, tone = "";
+};
+/// A table behind a click. `omitted`: always, and left out on paper; `when_long`: where it has more than kShortTable
+/// rows, and in full on paper.
+enum class Fold { no, omitted, when_long };
+inline constexpr std::size_t kShortTable = 12;
+/// Names of sensors as one cell; more than kShortList of them are counted, and stand behind a click.
+inline constexpr std::size_t kShortList = 8;
+ViewCell sensors_cell(const Json& ids, const char* key = nullptr);
 
 const char* tone_of(const std::string& result);
 std::string joined_list(const Json& list, const char* key = nullptr);
@@ -47,12 +59,13 @@ class Section {
   /// Lines to be filled in by hand.
   void signature(const std::vector<std::string>& fields);
   void text(const std::string& text);
+  /// What differs from run to run: the rest of a page is the same for the same inputs.
+  void stamp(const std::string& text);
   void notice(const std::string& text, const std::string& tone);
   /// The few numbers that matter: question, value, what it means.
-  void figures(const std::vector<std::array<std::string, 3>>& answers);
-  /// `folded`: behind a click; on paper it is omitted.
+  void figures(const std::vector<ViewFigure>& answers);
   void table(const std::string& title, const std::vector<std::string>& head, const ViewRows& rows,
-             const std::string& note = "", bool folded = false);
+             const std::string& note = "", Fold fold = Fold::no);
   void list(const std::string& title, const std::vector<std::string>& items, bool ordered = false);
   /// Files beside the page, each with what it holds.
   void files(const std::string& title, const std::vector<FileLink>& files);
@@ -61,13 +74,14 @@ class Section {
   void picture(const std::string& title, const PagePicture& picture, const std::string& alt, const std::string& caption,
                const std::string& csv = "");
   kainjow::mustache::data take();
+  bool has_plots() const noexcept { return plots_ > 0; }
   const std::string& id() const noexcept { return id_; }
 
  private:
   kainjow::mustache::data& block(const char* kind, const std::string& title = "");
 
   std::string id_, title_, gist_;
-  int pictures_ = 0;
+  int pictures_ = 0, plots_ = 0;
   std::vector<kainjow::mustache::data> blocks_;
 };
 

@@ -24,6 +24,11 @@ inline std::string in_markup(const std::string& text) {
   return out;
 }
 
+inline void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
 /// Gives every name inside the picture a prefix, where it is defined and where it is used.
 inline std::string with_own_names(std::string svg, const std::string& prefix) {
   for (const char* mark : {" id=\"", " id='", "url(#", "href=\"#", "href='#"}) {

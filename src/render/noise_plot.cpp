@@ -61,7 +61,7 @@ std::string spectrum_csv(const NoiseAxis& axis) {
 
 std::string allan_script(const NoiseAxis& axis, std::size_t k) {
   const std::string data = csv_name("allan", k);
-  std::string out = chart_head(allan_picture_name(k).c_str(), 800, 520) +
+  std::string out = chart_head(allan_picture_name(k), 800, 520, 420) +
                     fmt::format(
                         "set tmargin 3\nset logscale xy\nset grid lw 0.4 lc rgb '#999999'\nset key top right\n"
                         "set xlabel 'averaging time, s'\nset ylabel 'Allan deviation, {}'\n"
@@ -88,7 +88,7 @@ std::string allan_script(const NoiseAxis& axis, std::size_t k) {
 }
 
 std::string spectrum_script(const NoiseAxis& axis, std::size_t k) {
-  std::string out = chart_head(spectrum_picture_name(k).c_str(), 800, 520) +
+  std::string out = chart_head(spectrum_picture_name(k), 800, 520, 420) +
                     fmt::format(
                         "set tmargin 3\nset logscale xy\nset grid lw 0.4 lc rgb '#999999'\nset key bottom left\n"
                         "set xlabel 'frequency, Hz'\nset ylabel 'root of the power density, {}/sqrt(Hz)'\n"

@@ -34,12 +34,12 @@ void add_table(const Table& table, Section& out) {
 Section section_of(const Chapter& chapter) {
   Section out(chapter.id, chapter.title, chapter.gist);
   for (const std::string& text : chapter.text) out.text(text);
-  std::vector<std::array<std::string, 3>> figures;
-  for (const Figure& figure : chapter.figures) figures.push_back({"", figure.value, figure.label});
+  std::vector<ViewFigure> figures;
+  for (const Figure& figure : chapter.figures) figures.push_back({"", figure.value, figure.label, figure.tone});
   if (!figures.empty()) out.figures(figures);
   if (!chapter.story.empty()) out.list("What happened", chapter.story, true);
   for (const Picture& picture : chapter.pictures)
-    out.picture(picture.title, {picture.svg, picture.missing}, "", picture.caption);
+    out.picture(picture.title, {picture.svg, picture.missing, picture.narrow}, "", picture.caption);
   for (const Table& table : chapter.tables) add_table(table, out);
   if (!chapter.commands.empty()) {
     out.heading("Do it by hand");

@@ -16,12 +16,15 @@ inline constexpr const char* kPageTemplate = R"html(<!DOCTYPE html>
 <link rel="icon" href="data:,">
 <title>{{title}}</title>
 <style>
-:root { --ink: #1d2126; --soft: #545d68; --line: #d3d9e0; --page: #f6f7f9; --card: #ffffff; --accent: #1b5f99; --good: #1d7343; --bad: #b3261e; --open: #8a5a00; }
+:root { --ink: #1d2126; --soft: #545d68; --line: #d3d9e0; --page: #f6f7f9; --card: #ffffff; --accent: #1b5f99; --good: #1d7343; --bad: #b3261e; --open: #8a5a00;
+  --good-wash: #e8f4ec; --bad-wash: #fbe9e7; --open-wash: #fbf1dc; }
 @media (prefers-color-scheme: dark) {
-  :root { --ink: #e6e9ed; --soft: #a3adb9; --line: #39414b; --page: #14171b; --card: #1c2026; --accent: #79b8ec; --good: #6fce98; --bad: #ff8a80; --open: #f0b64a; }
+  :root { --ink: #e6e9ed; --soft: #a3adb9; --line: #39414b; --page: #14171b; --card: #1c2026; --accent: #79b8ec; --good: #6fce98; --bad: #ff8a80; --open: #f0b64a;
+    --good-wash: #17301f; --bad-wash: #3a1c1a; --open-wash: #33280f; }
 }
 @media print {
-  :root { --ink: #000; --soft: #333; --line: #999; --page: #fff; --card: #fff; --accent: #000; --good: #0d5a2d; --bad: #8f1410; --open: #5e3d00; }
+  :root { --ink: #000; --soft: #333; --line: #999; --page: #fff; --card: #fff; --accent: #1b5f99; --good: #1d7343; --bad: #b3261e; --open: #8a5a00;
+    --good-wash: #e8f4ec; --bad-wash: #fbe9e7; --open-wash: #fbf1dc; }
 }
 * { box-sizing: border-box; }
 html { scroll-padding-top: 4.5rem; }
@@ -39,11 +42,13 @@ a:focus-visible, summary:focus-visible { outline: 3px solid var(--accent); outli
 nav { position: sticky; top: 0; z-index: 1; background: var(--page); border-bottom: 1px solid var(--line); }
 nav ol { max-width: 74rem; margin: 0 auto; padding: .5rem 1rem; display: flex; gap: .2rem 1.1rem; overflow-x: auto; white-space: nowrap; list-style: none; font-size: .92rem; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: .5rem; padding: .9rem; }
-.notice { border-left: .45rem solid var(--soft); margin: .8rem 0; } #verdict > .notice { font-size: 1.25rem; font-weight: 600; max-width: none; }
-.notice.good { border-color: var(--good); } .notice.bad { border-color: var(--bad); } .notice.open { border-color: var(--open); }
+.card.good { border-color: var(--good); background: var(--good-wash); } .card.bad { border-color: var(--bad); background: var(--bad-wash); }
+.card.open { border-color: var(--open); background: var(--open-wash); }
+.notice { border-left: .45rem solid var(--soft); margin: .8rem 0; } #signoff > .notice, #verdict > .notice:first-of-type { font-size: 1.25rem; font-weight: 600; max-width: none; }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(18rem, 100%), 1fr)); gap: .8rem; margin: 1rem 0; }
 .figures b { display: block; font-size: 1.5rem; line-height: 1.2; color: var(--accent); }
-.figures span { color: var(--soft); font-size: .9rem; }
+.figures .good b { color: var(--good); } .figures .bad b { color: var(--bad); } .figures .open b { color: var(--open); }
+.figures span { color: var(--soft); font-size: .9rem; display: block; }
 .wide { overflow-x: auto; }
 .wide:focus-visible { outline: 3px solid var(--accent); }
 table { border-collapse: collapse; width: 100%; font-size: .88rem; font-variant-numeric: tabular-nums; }
@@ -56,25 +61,40 @@ tr:last-child td { border-bottom: 0; }
 .state { color: #fff; border-radius: 1rem; padding: .05rem .65rem; white-space: nowrap; }
 .index { display: grid; grid-template-columns: repeat(auto-fit, minmax(16rem, 1fr)); gap: .8rem; margin: 1.4rem 0; }
 .index a { color: inherit; text-decoration: none; } .index b { display: block; color: var(--accent); } .index span { color: var(--soft); font-size: .92rem; }
-.good b, td.good { color: var(--good); } td.bad { color: var(--bad); } td.open { color: var(--open); }
+td.good { color: var(--good); } td.bad { color: var(--bad); } td.open { color: var(--open); }
 td.good, td.bad, td.open { font-weight: 600; }
-figure { margin: 0; } figcaption { color: var(--soft); font-size: .9rem; margin-top: .5rem; }
+figure { margin: 0; position: relative; } figcaption { color: var(--soft); font-size: .9rem; margin-top: .5rem; }
 svg { display: block; width: 100%; height: auto; color: var(--ink); max-width: 60rem; margin: 0 auto; }
 figure .wide svg { min-width: 34rem; }
+.narrow { display: none; }
+.plot:focus-visible { outline: 3px solid var(--accent); }
+.tools { display: flex; justify-content: flex-end; gap: .2rem; margin-top: .3rem; }
+.tools button { font: inherit; line-height: 1; min-width: 1.8rem; height: 1.8rem; color: var(--ink); background: var(--card); border: 1px solid var(--line); border-radius: .3rem; cursor: pointer; }
+.tools button:focus-visible { outline: 3px solid var(--accent); }
+.tip { position: absolute; pointer-events: none; z-index: 2; background: var(--ink); color: var(--page); padding: .15rem .5rem; border-radius: .3rem; font-size: .85rem; white-space: nowrap; }
+.zoomed svg { cursor: grab; touch-action: none; }
+@media screen and (max-width: 40rem) {
+  .broad { display: none; } .narrow { display: block; } .card.figure { padding: .4rem; }
+}
+td details { margin: 0; } td summary { font-weight: 400; padding: 0; }
 details { margin: .6rem 0; } summary { cursor: pointer; font-weight: 600; padding: .3rem 0; }
 pre { overflow-x: auto; margin: .6rem 0; padding: .7rem .9rem; background: var(--card); border: 1px solid var(--line); border-radius: .5rem; font-size: .87rem; }
 ul, section ol { padding-left: 1.3rem; max-width: 52rem; margin: .5rem 0; } li { margin: .25rem 0; overflow-wrap: anywhere; }
 footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line); color: var(--soft); font-size: .88rem; }
-.sign { display: grid; grid-template-columns: repeat(auto-fit, minmax(14rem, 1fr)); gap: 1rem 2rem; margin: 1.4rem 0; }
-.sign span { border-top: 1px solid var(--ink); padding-top: .2rem; margin-top: 2.6rem; font-size: .85rem; color: var(--soft); }
+.sign { display: flex; flex-wrap: wrap; gap: .4rem 2rem; margin: 1rem 0; }
+.sign p { flex: 1 1 12rem; margin: 0; border-bottom: 1px solid var(--ink); padding-top: 2.2rem; font-size: .85rem; color: var(--soft); }
 @page { size: A4; margin: 16mm 13mm 18mm; @bottom-center { content: counter(page) " / " counter(pages); font-size: 8pt; } }
 @media print {
   body { font-size: 9.5pt; } main { max-width: none; padding: 0; } nav ol { display: block; white-space: normal; padding: 0; }
   nav { position: static; border: 0; } nav a { text-decoration: none; } nav a::after { content: leader(".") target-counter(attr(href), page); }
   .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: .7mm .9mm; } td.long { min-width: 0; }
   tr, figure, .card.figure, .figures .card, .notice { break-inside: avoid; } h2, h3, summary { break-after: avoid; } thead { display: table-header-group; }
-  section { break-before: page; border-top: 0; } #verdict { break-before: auto; } .card { padding: 1.5mm; } figure .wide svg { min-width: 0; max-width: 150mm; } pre { white-space: pre-wrap; }
-  .folded { display: none; }
+  section { break-before: page; border-top: 0; } section:first-of-type { break-before: auto; } .card { padding: 1.5mm; } figure .wide svg { min-width: 0; } figure svg { max-width: 150mm; } pre { white-space: pre-wrap; }
+  .folded, .tools, .tip { display: none; }
+  .figures { display: flex; flex-wrap: wrap; gap: 2mm; } .figures .card { width: 31%; margin: 0 1.5mm 1.5mm 0; }
+  .sign { display: table; width: 100%; table-layout: fixed; border-spacing: 6mm 0; margin: 2mm 0; } .sign p { display: table-cell; height: 11mm; padding: 0; vertical-align: bottom; }
+  #signoff { margin-top: 3mm; padding-top: 0; } #signoff .figures span { font-size: 7.5pt; } #signoff .figures b { font-size: 13pt; }
+  #signoff ~ nav { break-before: page; } nav + section { break-before: auto; } #signoff > .notice { font-size: 9.5pt; line-height: 1.3; margin: 1mm 0; } #signoff .figures { margin: 1mm 0; }
 }
 </style>
 </head>
@@ -99,19 +119,21 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 {{/is_heading}}
 {{#is_text}}<p>{{text}}</p>
 {{/is_text}}
+{{#is_stamp}}<p class="run">{{text}}</p>
+{{/is_stamp}}
 {{#is_notice}}<p class="card notice {{tone}}">{{text}}</p>
 {{/is_notice}}
 {{#is_figures}}<div class="figures">
-{{#figures}}<div class="card">{{#has_question}}<span>{{question}}</span>{{/has_question}}<b>{{value}}</b><span>{{label}}</span></div>
+{{#figures}}<div class="card{{#has_tone}} {{tone}}{{/has_tone}}">{{#has_question}}<span>{{question}}</span>{{/has_question}}<b>{{value}}</b><span>{{label}}</span></div>
 {{/figures}}
 </div>
 {{/is_figures}}
-{{#is_table}}{{^folded}}{{#has_title}}<h3>{{title}}</h3>{{/has_title}}{{/folded}}{{#folded}}<details class="folded"><summary>{{title}}</summary>{{/folded}}
+{{#is_table}}{{^folded}}{{#has_title}}<h3>{{title}}</h3>{{/has_title}}{{/folded}}{{#folded}}<details class="{{fold}}"><summary>{{title}}</summary>{{/folded}}
 <div class="card wide" tabindex="0" role="region" aria-label="{{label}}">
 <table>
 <thead><tr>{{#head}}<th scope="col"{{#n}} class="n"{{/n}}>{{text}}</th>{{/head}}</tr></thead>
 <tbody>
-{{#rows}}<tr>{{#cells}}<td{{#has_classes}} class="{{classes}}"{{/has_classes}}>{{#has_colour}}<span class="state" style="background:{{colour}}">{{/has_colour}}{{text}}{{#has_colour}}</span>{{/has_colour}}</td>{{/cells}}</tr>
+{{#rows}}<tr>{{#cells}}<td{{#has_classes}} class="{{classes}}"{{/has_classes}}>{{#has_colour}}<span class="state" style="background:{{colour}}">{{/has_colour}}{{^has_rest}}{{text}}{{/has_rest}}{{#has_rest}}<details><summary>{{text}}</summary>{{rest}}</details>{{/has_rest}}{{#has_colour}}</span>{{/has_colour}}</td>{{/cells}}</tr>
 {{/rows}}
 </tbody>
 </table>
@@ -125,14 +147,16 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 {{/items}}
 </{{kind}}>
 {{/is_list}}
-{{#is_signature}}<div class="sign">{{#fields}}<span>{{text}}</span>{{/fields}}</div>
+{{#is_signature}}<div class="sign">{{#fields}}<p>{{text}}</p>{{/fields}}</div>
 {{/is_signature}}
 {{#is_commands}}<pre>{{#lines}}{{text}}
 {{/lines}}</pre>
 {{/is_commands}}
 {{#is_picture}}{{#has_title}}<h3>{{title}}</h3>{{/has_title}}
 <figure class="card figure">
-{{#has_svg}}<div class="wide" tabindex="0" role="img" aria-label="{{label}}">{{{svg}}}</div>{{/has_svg}}{{^has_svg}}<p>There is no picture: {{missing}}</p>{{/has_svg}}
+{{#has_svg}}<div class="plot {{#has_narrow}}broad{{/has_narrow}}{{^has_narrow}}wide{{/has_narrow}}" tabindex="0" role="img" aria-label="{{label}}">{{{svg}}}</div>{{/has_svg}}
+{{#has_narrow}}<div class="plot narrow" tabindex="0" role="img" aria-label="{{label}}">{{{narrow}}}</div>
+{{/has_narrow}}{{^has_svg}}<p>There is no picture: {{missing}}</p>{{/has_svg}}
 <figcaption>{{caption}}{{#has_csv}} <a href="{{csv}}">The data as CSV</a>.{{/has_csv}}</figcaption>
 </figure>
 {{/is_picture}}
@@ -141,10 +165,12 @@ footer { margin-top: 2.5rem; padding-top: 1rem; border-top: 2px solid var(--line
 {{/sections}}
 <footer>
 <p>{{footer}}</p>
-{{#has_run}}<p id="run">{{run}}</p>{{/has_run}}
+{{#has_run}}<p class="run">{{run}}</p>{{/has_run}}
 </footer>
 </main>
-</body>
+{{#has_plots}}<script>
+{{{script}}}</script>
+{{/has_plots}}</body>
 </html>
 )html";
 

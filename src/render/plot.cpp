@@ -68,33 +68,11 @@ io::FileExpected<void> run_program(const std::string& directory, const std::stri
   return {};
 }
 
-io::FileExpected<void> run_gnuplot(const std::string& directory, const std::string& script) {
-  return run_program(directory, "gnuplot", {script}, "gnuplot-nox", "plot");
-}
-
-std::string inline_svg(const std::string& svg) {
-  const std::size_t begin = svg.find("<svg");
-  if (begin == std::string::npos) return "";
-  std::string out = svg.substr(begin);
-  const auto drop = [&out](const std::string& from, const std::string& to) {
-    for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at)) {
-      const std::size_t end = out.find(to, at + from.size());
-      if (end == std::string::npos) return;
-      out.erase(at, end + to.size() - at);
-    }
-  };
-  const auto replace = [&out](const std::string& from, const std::string& to) {
-    for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size()))
-      out.replace(at, from.size(), to);
-  };
-  drop("<title>", "</title>");
-  drop("<desc>", "</desc>");
-  drop("xmlns=\"", "\"");
-  drop("xmlns:xlink=\"", "\"");
-  replace("rgb(  0,   0,   0)", "currentColor");
-  replace("\"black\"", "\"currentColor\"");
-  replace("'black'", "'currentColor'");
-  return out;
+io::FileExpected<void> run_gnuplot(const std::string& directory, const std::string& script, DrawnFor drawn_for) {
+  std::vector<std::string> arguments = {script};
+  if (drawn_for != DrawnFor::itself)
+    arguments.insert(arguments.begin(), {"-e", drawn_for == DrawnFor::page ? "page=1" : "page=1; narrow=1"});
+  return run_program(directory, "gnuplot", arguments, "gnuplot-nox", "plot");
 }
 
 }  // namespace render

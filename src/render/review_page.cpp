@@ -96,7 +96,7 @@ void add_stretches(const LogReview& log, Section& out) {
     }
     rows.push_back(row);
   }
-  out.table("Stretches at rest", head, rows, "", rows.size() > 12);
+  out.table("Stretches at rest", head, rows, "", Fold::when_long);
 }
 
 Section log_view(const LogReview& log, std::size_t number) {

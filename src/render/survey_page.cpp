@@ -121,10 +121,12 @@ Section verdict_section(const SurveyReport& r) {
                       std::fabs(at.east_m), at.east_m < 0.0 ? "W" : "E");
     below = fmt::format("{} north, {:.1f} m true vertical depth", to_string(found.north), at.tvd_m);
   }
-  out.figures({{"Accepted", std::to_string(count_of(found, StationStatus::accepted)), "all three checks passed"},
+  out.figures({{"Accepted", std::to_string(count_of(found, StationStatus::accepted)), "all three checks passed",
+                count_of(found, StationStatus::accepted) > 0 ? "good" : ""},
                {"Inclination only", std::to_string(count_of(found, StationStatus::inclination_only)),
-                "the field failed: no azimuth"},
-               {"Rejected", std::to_string(count_of(found, StationStatus::rejected)), "gravity failed: nothing of it"},
+                "the field failed: no azimuth", count_of(found, StationStatus::inclination_only) > 0 ? "open" : ""},
+               {"Rejected", std::to_string(count_of(found, StationStatus::rejected)), "gravity failed: nothing of it",
+                count_of(found, StationStatus::rejected) > 0 ? "bad" : ""},
                {"Error tests", tests_value(found), "all stations together"},
                {"Azimuths from", std::string(to_string(found.north)) + " north", "in table, plots and path"},
                {"End of the path", end, below}});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "chart.hpp"
+#include "clipped.hpp"
 #include "plumb/render/survey_page.hpp"
 #include "survey_words.hpp"
 
@@ -18,7 +19,6 @@ constexpr const char* kPathData = "survey-path.csv";
 /// Limits fill this part of a panel's height; what is further off is drawn at the edge, with its value.
 constexpr double kRoom = 1.6;
 constexpr double kEdge = 1.4;
-constexpr std::size_t kMostLabels = 8;
 
 struct Panel {
   const char* title;
@@ -86,15 +86,17 @@ std::string panel_script(const SurveyReport& r, std::size_t k) {
   }
   const std::size_t column = 2 + 3 * k;
   out += k == 2 ? "set xlabel 'measured depth, m'\nset format x '%g'\n" : "unset xlabel\nset format x ''\n";
-  return out + fmt::format(
-                   "plot '{0}' skip 1 using 1:(-${1}):{1} with filledcurves fs transparent solid 0.16 noborder lc rgb "
-                   "'#2f78b7' title '{4}', '' skip 1 using 1:{1} with lines lw 0.8 lc rgb '#2f78b7' notitle, "
-                   "'' skip 1 using 1:(-${1}) with lines lw 0.8 lc rgb '#2f78b7' notitle, "
-                   "0 with lines lw 0.7 lc rgb '#999999' notitle, "
-                   "'' skip 1 using 1:{2} with points pt 7 ps 0.55 lc rgb '#2c8f57' title '{5}', "
-                   "'' skip 1 using 1:{3} with points pt 9 ps 1.0 lc rgb '#c53a3a' title '{6}'\n",
-                   kChecksData, column, column + 1, column + 2, k == 0 ? "limit" : "", k == 0 ? "passed" : "",
-                   k == 0 ? "failed" : "");
+  return out +
+         fmt::format(
+             "plot '{0}' skip 1 using 1:(-${1}):{1} with filledcurves fs transparent solid 0.16 noborder lc rgb "
+             "'#2f78b7' title '{4}', '' skip 1 using 1:{1} with lines lw 0.8 lc rgb '#2f78b7' notitle, "
+             "'' skip 1 using 1:(-${1}) with lines lw 0.8 lc rgb '#2f78b7' notitle, "
+             "0 with lines lw 0.7 lc rgb '#999999' notitle, "
+             "'' skip 1 using 1:{2} with points pt 7 ps 0.55 lc rgb '#2c8f57' title '{5}', "
+             "'' skip 1 using 1:{3} with points pt 9 ps 1.0 lc rgb '#c53a3a' title '{6}'\n",
+             kChecksData, column, column + 1, column + 2, k == 0 ? "limit" : "", k == 0 ? "passed" : "",
+             k == 0 ? "failed" : "") +
+         axes_told("md, m", panel.title);
 }
 
 std::string path_script(const SurveyReport& r) {
@@ -102,9 +104,10 @@ std::string path_script(const SurveyReport& r) {
   const bool away = std::hypot(end.north_m, end.east_m) > 0.0;
   const double closure_deg = deg_from_rad(survey::full_turn_rad(std::atan2(end.east_m, end.north_m)));
   // Both axes of a panel have one scale. A straight vertical hole has no extent across: the range is given room.
-  return chart_head(kSurveyPathPicture, 900, 470) +
+  return chart_head(kSurveyPathPicture, 900, 470, 860) +
          fmt::format(
-             "set multiplot layout 1,2\nset grid lw 0.4 lc rgb '#999999'\nunset key\nset size ratio -1\n"
+             "set multiplot layout (narrow ? 2 : 1),(narrow ? 1 : 2)\nset grid lw 0.4 lc rgb '#999999'\nunset key\nset "
+             "size ratio -1\n"
              "set format x '%g'\nset format y '%g'\nset xtics autofreq rotate by -40\n"
              "stats '{0}' skip 1 using 2:1 nooutput name 'P'\nstats '{0}' skip 1 using 3:4 nooutput name 'S'\n"
              "half(a, b) = 0.55 * (b - a > 10 ? b - a : 10)\nmiddle(a, b) = 0.5 * (a + b)\n"
@@ -112,15 +115,15 @@ std::string path_script(const SurveyReport& r) {
              "set xrange [middle(P_min_x, P_max_x) - h:middle(P_min_x, P_max_x) + h]\n"
              "set yrange [middle(P_min_y, P_max_y) - h:middle(P_min_y, P_max_y) + h]\n"
              "set title 'from above'\nset xlabel 'east, m'\nset ylabel '{1} north, m'\n"
-             "plot '{0}' skip 1 using 2:1 with linespoints pt 7 ps 0.45 lw 1.6 lc rgb '#2f78b7'\n"
+             "plot '{0}' skip 1 using 2:1 with linespoints pt 7 ps 0.45 lw 1.6 lc rgb '#2f78b7'\n{3}"
              "h = half(S_min_x, S_max_x) > half(S_min_y, S_max_y) ? half(S_min_x, S_max_x) : half(S_min_y, S_max_y)\n"
              "set xrange [middle(S_min_x, S_max_x) - h:middle(S_min_x, S_max_x) + h]\n"
              "set yrange [middle(S_min_y, S_max_y) + h:middle(S_min_y, S_max_y) - h]\n"
              "set title 'from the side'\nset xlabel 'along {2}, m'\nset ylabel 'true vertical depth, m'\n"
-             "plot '{0}' skip 1 using 3:4 with linespoints pt 7 ps 0.45 lw 1.6 lc rgb '#2f78b7'\n"
+             "plot '{0}' skip 1 using 3:4 with linespoints pt 7 ps 0.45 lw 1.6 lc rgb '#2f78b7'\n{4}"
              "unset multiplot\nunset output\n",
-             kPathData, to_string(r.survey.north),
-             away ? fmt::format("{:.1f} deg", closure_deg) : std::string("north"));
+             kPathData, to_string(r.survey.north), away ? fmt::format("{:.1f} deg", closure_deg) : std::string("north"),
+             axes_told("east, m", "north, m"), axes_told("along, m", "tvd, m"));
 }
 
 bool has_path(const SurveyReport& r) { return r.survey.path && r.survey.path->size() > 1; }
@@ -134,8 +137,8 @@ std::vector<std::string> survey_picture_names(const SurveyReport& r) {
 
 std::vector<PlotFile> survey_plot_files(const SurveyReport& r) {
   std::string script = "# Draws the pictures of `plumb survey`. Run: gnuplot " + std::string(kSurveyScript) + "\n" +
-                       chart_head(kSurveyChecksPicture, 900, 620) +
-                       "set multiplot layout 3,1 margins 0.1,0.97,0.1,0.95 spacing 0.03\n"
+                       chart_head(kSurveyChecksPicture, 900, 620, 620) +
+                       "set multiplot layout 3,1 margins (narrow ? 0.2 : 0.1),0.97,0.1,0.95 spacing 0.03\n"
                        "set grid lw 0.4 lc rgb '#999999'\nset key at graph 1,1.19 right top horizontal samplen 1.5\n"
                        "set autoscale xfix\nset offsets graph 0.02, graph 0.06, 0, 0\n";
   for (std::size_t k = 0; k < kPanels.size(); ++k) script += panel_script(r, k);

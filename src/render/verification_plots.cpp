@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "chart.hpp"
+#include "clipped.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/render/figures.hpp"
 #include "plumb/render/verification_page.hpp"
 
 namespace plumb {
@@ -17,8 +19,8 @@ namespace {
 constexpr const char* kBlue = "#2f78b7";
 constexpr const char* kRed = "#d0553c";
 
-std::string chart_terminal(const char* name, int width, int height) {
-  return chart_head(name, width, height) + "set grid lw 0.4 lc rgb '#999999'\n";
+std::string chart_terminal(const char* name, int width, int height, int narrow_height) {
+  return chart_head(name, width, height, narrow_height) + "set grid lw 0.4 lc rgb '#999999'\n";
 }
 
 bool has_faults(const Json& report) { return report["campaign"]["faults"].value("played", false); }
@@ -126,9 +128,10 @@ std::string traces_script(const Json& trace) {
     }
     names += (names.empty() ? "" : " ") + id;
   }
-  std::string out = chart_terminal("traces.svg", 1000, 760) +
+  std::string out = chart_terminal("traces.svg", 1000, 760, 1240) +
                     fmt::format(
-                        "set multiplot layout 2,2\nset xrange [-0.2:{}.2]\nset xtics 1\nset xlabel 'iteration'\nset "
+                        "set multiplot layout (narrow ? 4 : 2),(narrow ? 1 : 2)\nset xrange [-0.2:{}.2]\nset xtics "
+                        "1\nset xlabel 'iteration'\nset "
                         "format y '%g'\nset palette defined (0 '#2f78b7', 1 '#2c8f57', 2 '#c98a00', 3 '#d0553c', 4 "
                         "'#8f55c4')\nunset colorbox\nset key above samplen 1\n",
                         trace.size() - 1);
@@ -138,6 +141,7 @@ std::string traces_script(const Json& trace) {
         "set ylabel '{}'\nplot for [i=0:{}] 'traces.csv' skip 1 using 1:(column({}+i)) with linespoints pt 7 ps 0.6 lc "
         "palette frac (i/{}.0) title word('{}', i+1) noenhanced\n",
         label, n - 1, first, n, names);
+    out += axes_told("iteration", label);
     first += n;
   }
   double least = 1e300, most = 0.0;
@@ -150,12 +154,12 @@ std::string traces_script(const Json& trace) {
   const bool wide = least > 0.0 && most > 100.0 * least;
   return out + "set ylabel 'cost, squared sigmas'\n" +
          (wide ? "set logscale y\nset format y '10^{%T}'\n" : "set yrange [0:*]\n") +
-         "unset key\nplot 'traces.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lc rgb '#2f78b7' notitle\n"
-         "unset multiplot\nunset output\n";
+         "unset key\nplot 'traces.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lc rgb '#2f78b7' notitle\n" +
+         axes_told("iteration", "cost", wide ? Log::y : Log::none) + "unset multiplot\nunset output\n";
 }
 
 std::string by_size_script() {
-  return chart_terminal("by-size.svg", 800, 440) +
+  return chart_terminal("by-size.svg", 800, 440, 360) +
          fmt::format(
              "set logscale x\nset xlabel 'size, multiples of the minimal detectable bias'\nset ylabel 'share'\nset "
              "yrange [-0.03:1.03]\nset key right bottom\n"
@@ -163,24 +167,25 @@ std::string by_size_script() {
              "plot 'by-size.csv' skip 1 using 1:2:3:4 with yerrorbars pt 7 ps 0.7 lc rgb '{0}' title 'detected', '' "
              "skip 1 using 1:2 with lines lc rgb '{0}' notitle, "
              "'' skip 1 using 1:5:6:7 with yerrorbars pt 5 ps 0.7 lc rgb '{1}' title 'isolated', '' skip 1 using 1:5 "
-             "with lines lc rgb '{1}' notitle\nunset output\n",
-             kBlue, kRed);
+             "with lines lc rgb '{1}' notitle\n",
+             kBlue, kRed) +
+         axes_told("size, MDB", "share", Log::x) + "unset output\n";
 }
 
 std::string times_script() {
-  return chart_terminal("times.svg", 800, 400) +
+  return chart_terminal("times.svg", 800, 400, 340) +
          fmt::format(
              "set xlabel 'time at rest since the onset, s'\nset ylabel 'share'\nset yrange [0:1.03]\nset key right "
              "bottom\n"
              "plot 'times.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lc rgb '{}' title 'detected', '' skip 1 "
              "using 1:3 with linespoints pt 5 ps 0.6 lc rgb '{}' title 'isolated'\n"
-             "unset output\n",
-             kBlue, kRed);
+             "{}",
+             kBlue, kRed, axes_told("s since the onset", "share") + "unset output\n");
 }
 
 std::string stanford_script(double alert_limit_deg) {
   // A cell of the diagram ends at its octave; the row above all has no protection level.
-  return chart_terminal("stanford.svg", 800, 640) +
+  return chart_terminal("stanford.svg", 800, 640, 460) +
          fmt::format(
              "set logscale xy 2\nset xlabel 'tilt error up to, deg'\nset ylabel 'protection level up to, deg'\nset "
              "format '%.3g'\nset xrange [0.0004:1100]\nset yrange [0.0004:1100]\n"
@@ -192,18 +197,40 @@ std::string stanford_script(double alert_limit_deg) {
              "'alert limit' at {0}, graph 0.02 offset 0.5,0 tc rgb '#c53a3a'\n"
              "plot 'stanford.csv' skip 1 using ($1/sqrt(2)):($2/sqrt(2)):($1/2):1:($2/2):2:4 with boxxyerror fs solid "
              "1 noborder lc palette notitle, "
-             "x with lines lc rgb '#8a8a8a' dt 3 title 'error = protection level'\nunset output\n",
-             alert_limit_deg);
+             "x with lines lc rgb '#8a8a8a' dt 3 title 'error = protection level'\n",
+             alert_limit_deg) +
+         axes_told("error, deg", "protection level, deg", Log::both) + "unset output\n";
 }
 
-std::string residuals_script() {
-  return chart_terminal("residuals.svg", 800, 380) +
+double norm_error_of(const Json& station) {
+  const Json& error = station["norm_error_mps2"];
+  return error.is_number() ? kMg0 * error.get<double>() : std::nan("");
+}
+
+Clipped residual_axis(const Json& stations) {
+  std::vector<double> all;
+  for (const Json& s : stations) all.push_back(norm_error_of(s));
+  return {all, 0.0};
+}
+
+std::string residuals_script(const Json& stations) {
+  const Clipped axis = residual_axis(stations);
+  std::string labels;
+  std::size_t written = 0;
+  for (std::size_t k = 0; k < stations.size(); ++k) {
+    const double error = norm_error_of(stations[k]);
+    if (axis.beyond(error) && written++ < kMostLabels) labels += axis.label(static_cast<double>(k + 1), error);
+  }
+  return chart_terminal("residuals.svg", 800, 380, 340) + axis.range() + labels +
          fmt::format(
+             "edge(v) = v > {2:.6g} ? {2:.6g} : (v < -{2:.6g} ? -{2:.6g} : v)\n"
              "set xlabel 'station'\nset ylabel 'length of the vector less gravity, mg0'\nset xzeroaxis lw 0.7\nset key "
              "top right\n"
-             "plot 'residuals.csv' skip 1 using 1:2 with points pt 7 ps 0.6 lc rgb '{}' title 'in the fit', '' skip 1 "
-             "using 1:3 with points pt 6 ps 0.8 lc rgb '{}' title 'held out'\nunset output\n",
-             kBlue, kRed);
+             "plot 'residuals.csv' skip 1 using 1:(edge($2)) with points pt 7 ps 0.6 lc rgb '{0}' title 'in the fit', "
+             "'' "
+             "skip 1 using 1:(edge($3)) with points pt 6 ps 0.8 lc rgb '{1}' title 'held out'\n",
+             kBlue, kRed, axis.edge()) +
+         axes_told("station", "mg0") + "unset output\n";
 }
 
 }  // namespace
@@ -235,7 +262,7 @@ std::vector<PlotFile> verification_plot_files(const Json& report, const Geometry
   }
   if (has_residuals(report)) {
     out.push_back(residuals_csv(report["calibration"]["fit"]["stations"]));
-    script += residuals_script();
+    script += residuals_script(report["calibration"]["fit"]["stations"]);
   }
   if (has_faults(report)) {
     const Json& faults = report["campaign"]["faults"];

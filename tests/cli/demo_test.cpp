@@ -1,5 +1,7 @@
 // plumb demo: what it writes, that it tells the truth about it, and that the same seed gives the same bytes. The tests
 // are few and long because each of them runs in a process of its own and needs the whole demo.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -128,7 +130,8 @@ void drill_stays_within_its_word(const Directory& where, const std::string& id, 
 
 void page_tells_what_happened(const std::string& page) {
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is loaded from the network, nor pretends to be";
-  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), page.rfind("<script")) << "the one of the charts";
+  EXPECT_LT(page.find("<section id=\"result\""), page.find("<section id=\"geometry\"")) << "it opens with its result";
   EXPECT_EQ(page.find("{{"), std::string::npos) << "every placeholder is filled";
   for (const std::string& id : kSections) {
     EXPECT_NE(page.find("href=\"#" + id + "\""), std::string::npos) << id;
@@ -142,6 +145,20 @@ void page_tells_what_happened(const std::string& page) {
   EXPECT_TRUE(says(page, {"id=\"drill_b\"", "a2 reads 50 mg0 too high", "a2 is provisionally excluded",
                           "a2 is excluded", "recalibration begins", "new coefficients are accepted", "a5 is excluded",
                           "a2 has agreed with the others"}));
+}
+
+/// How wrong without plumb in red, how wrong with it in green, of both drills.
+void page_opens_with_the_result(const std::string& page, const json& sections) {
+  const std::size_t begin = page.find("<section id=\"result\"");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string result = page.substr(begin, page.find("</section>", begin) - begin);
+  for (const char* id : {"drill_a", "drill_b"}) {
+    const double without_deg = sections[id]["worst_inclination_error_without_plumb_deg"],
+                 with_deg = sections[id]["worst_inclination_error_valid_or_degraded_deg"];
+    EXPECT_TRUE(says(result, {fmt::format("<div class=\"card bad\"><b>{:.2g}°</b>", without_deg),
+                              fmt::format("<div class=\"card good\"><b>{:.2g}°</b>", with_deg)}));
+    EXPECT_GT(without_deg, 100.0 * with_deg);
+  }
 }
 
 /// No name inside a picture may be there twice: the page is one document.
@@ -213,6 +230,7 @@ TEST(Demo, ReportsWhatTheMonitorDid) {
   }
   const std::string page = read_text(demo() / "index.html");
   page_tells_what_happened(page);
+  page_opens_with_the_result(page, facts["sections"]);
   page_has_every_id_once(page);
   every_file_is_linked_and_every_link_leads_to_a_file(demo(), page);
   EXPECT_EQ(page.find("<svg") != std::string::npos, has_gnuplot());

@@ -331,8 +331,62 @@ TEST(MonitorReport, NamesCannotBreakOut) {
   shop.put("array.toml", with(shop.text("array.toml"), "paper-tetrahedron", "<script>alert(1)</script>"));
   EXPECT_EQ(run(shop, reported("drilling.csv")).code, 0);
   const std::string page = read_text(shop / "r.html");
-  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(page.find("<script"), page.rfind("<script")) << "the one of the charts";
   EXPECT_NE(page.find("&lt;script&gt;alert(1)"), std::string::npos) << "it is told, as text";
+}
+
+/// From the heading of the sign-off to its end.
+std::string sign_off_of(const std::string& page) {
+  const std::size_t begin = page.find("<section id=\"signoff\"");
+  return begin == std::string::npos ? "" : page.substr(begin, page.find("</section>", begin) - begin);
+}
+
+TEST(MonitorReport, TheSignOffComesFirstAndHoldsAllThatIsSigned) {
+  const Workshop shop;
+  ASSERT_EQ(run(shop, reported("drilling.csv")).code, 0);
+  const std::string page = read_text(shop / "r.html"), sheet = sign_off_of(page);
+  EXPECT_LT(page.find("id=\"signoff\""), page.find("id=\"verdict\""));
+  const Json report = report_of(shop);
+  for (const Json& input : report["identity"]["inputs"]) {
+    const char* const hash = input.contains("sha256") ? "sha256" : "fnv1a";
+    EXPECT_TRUE(says(sheet, {input["role"], input[hash]})) << input;
+  }
+  EXPECT_TRUE(says(sheet, {"orientation only", "Usable for survey?", "Which stations?", "Which sensors?",
+                           "excluded: a2", "How far off can it be?", "Is |G| right?", "What not to trust?",
+                           "serial number", "calibration date", report["run"]["time"], "Approved by", "Signature"}));
+  EXPECT_NE(sheet.find("<p class=\"card notice open\">"), std::string::npos) << "in the colour of its verdict";
+  EXPECT_NE(sheet.find("<div class=\"card bad\"><span>Which stations?"), std::string::npos) << "one is red";
+}
+
+TEST(MonitorReport, EverySensorHasATraceThatShowsItsFault) {
+  const Workshop shop;
+  ASSERT_EQ(run(shop, reported("drilling.csv")).code, 0);
+  const Json report = report_of(shop);
+  const Json& residuals = report["residuals"];
+  EXPECT_EQ(residuals["sensors"], Json::array({"a1", "a2", "a3", "a4"}));
+  double healthy_mg0 = 0.0, dead_mg0 = 0.0;
+  for (const Json& point : residuals["points"]) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double off_mg0 = 1e3 * std::fabs(point["off_mps2"][i].get<double>()) / kG0;
+      if (i == 1) dead_mg0 = std::fmax(dead_mg0, off_mg0);
+      // At the end a2 is out of service and the three others determine the vector without a rest.
+      if (i != 1 && point["t_s"].get<double>() > 25.0) healthy_mg0 = std::fmax(healthy_mg0, off_mg0);
+    }
+  }
+  EXPECT_GT(dead_mg0, 100.0);
+  EXPECT_LT(healthy_mg0, 1.0);
+  if (!kHasGnuplot) return;
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"Sensor by sensor", "a2, mg0", "up to -"}));
+}
+
+TEST(MonitorReport, ARunThatCalibratesItselfHasNoTraces) {
+  const Workshop shop;
+  const Outcome outcome = run(
+      shop, {"monitor", "--array", "array.toml", "--calibrate-first", "--log", "drilling.csv", "--report", "r.html"});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+  EXPECT_TRUE(report_of(shop)["residuals"].is_null());
+  EXPECT_TRUE(says(read_text(shop / "r.html"), {"Sensor by sensor: not drawn"}));
 }
 
 }  // namespace

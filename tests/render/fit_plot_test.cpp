@@ -45,7 +45,7 @@ TEST(FitPlot, TheScriptDrawsEveryPictureNamed) {
   const std::vector<std::string> names = render::fit_picture_names(p);
   EXPECT_EQ(names.size(), 4U);
   const std::string script = text_of(p, render::kFitScript);
-  for (const std::string& name : names) EXPECT_NE(script.find("set output '" + name + "'"), std::string::npos) << name;
+  for (const std::string& name : names) EXPECT_NE(script.find(".'" + name + "'\n"), std::string::npos) << name;
   EXPECT_NE(script.find("stands out"), std::string::npos);
 }
 

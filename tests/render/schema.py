@@ -99,6 +99,8 @@ def main(tool, source):
         lambda r: r.pop("answer"),
         lambda r: r["answer"].update(usable_for_survey="perhaps"),
         lambda r: r["stations"][0].update(colour="blue"),
+        lambda r: r.pop("residuals"),
+        lambda r: r["residuals"]["points"][0].update(off_mps2=[1.0, 2.0]),
         lambda r: r["stations"][0].pop("limit"),
         lambda r: r["stations"][0].update(inclination_deg=181),
         lambda r: r["events"][0].update(to="splendid"),

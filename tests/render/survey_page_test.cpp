@@ -178,7 +178,7 @@ TEST(SurveyPlot, DrawsLimitsAndMarksWhatIsFurtherOff) {
   EXPECT_EQ(std::count(data.begin(), data.end(), '\n'), 13);
   EXPECT_TRUE(holds(data, "\n1240.000,"));
   EXPECT_TRUE(holds(files.back().text, "set label '+10.00' at 1240.000"));
-  EXPECT_TRUE(holds(files.back().text, "set output 'survey-path.svg'"));
+  EXPECT_TRUE(holds(files.back().text, ".'survey-path.svg'\n"));
   EXPECT_EQ(render::survey_picture_names(report).size(), 2U);
   EXPECT_EQ(render::survey_picture_names(report_of(hole(1))).size(), 1U);
   EXPECT_EQ(render::survey_plot_files(report_of(hole(1))).size(), 2U);

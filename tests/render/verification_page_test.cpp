@@ -10,6 +10,7 @@
 
 #include "plumb/core/units.hpp"
 #include "plumb/render/change.hpp"
+#include "plumb/render/page.hpp"
 #include "plumb/study/proportion.hpp"
 #include "verify_support.hpp"
 
@@ -109,12 +110,90 @@ TEST(VerificationPage, SaysWhatItsSizesAndItsCoverageAreOf) {
              "Cells in which no replayed scenario left a record", "--test-results, --assurance"}));
 }
 
+std::string sign_off_of(const std::string& page) {
+  const std::size_t begin = page.find("<section id=\"signoff\"");
+  return begin == std::string::npos ? "" : page.substr(begin, page.find("</section>", begin) - begin);
+}
+
+TEST(VerificationPage, TheSignOffHoldsVerdictAnswersIdentityAndLines) {
+  Json report = paper_report();
+  report["calibration"]["file"] = {{"serial", "T-117"}, {"date", "2026-03-01"}};
+  report["run"]["time"] = "2026-11-29T10:00:00Z";
+  const std::string sheet = sign_off_of(render::verification_html(report, {}));
+  EXPECT_TRUE(plumb_test::says(sheet, {"T-117", "2026-03-01", report["identity"]["build"]["commit"],
+                                       "2026-11-29T10:00:00Z", "Issued by", "Approved by", "Signature"}));
+  for (const Json& answer : report["verdict"]["answers"])
+    EXPECT_TRUE(plumb_test::says(sheet, {answer["question"], answer["value"]})) << answer;
+  for (const Json& input : report["identity"]["inputs"])
+    EXPECT_TRUE(plumb_test::says(sheet, {input["role"], input["sha256"]})) << input;
+  EXPECT_NE(sheet.find("<p class=\"run\">"), std::string::npos) << "what differs from run to run stands apart";
+}
+
+/// Every answer that something was judged of has the colour of that judgement.
+TEST(VerificationPage, CardsHaveTheColourOfTheirVerdict) {
+  Json report = paper_report();
+  const auto card_of = [](const std::string& sheet, const char* question) {
+    const std::size_t at = sheet.find(question), begin = sheet.rfind("<div class=\"card", at);
+    return at == std::string::npos ? "" : sheet.substr(begin, sheet.find('>', begin) - begin + 1);
+  };
+  const std::pair<const char*, const char*> coloured[] = {{"How many faults?", "faults_isolated"},
+                                                          {"Protection level?", "protection_level"},
+                                                          {"How sure?", "wrong_exclusion"}};
+  for (const auto& [result, tone] :
+       {std::pair<const char*, const char*>{"met", "good"}, {"not met", "bad"}, {"open", "open"}}) {
+    for (Json& c : report["verdict"]["criteria"]) c["result"] = result;
+    const std::string sheet = sign_off_of(render::verification_html(report, {}));
+    for (const auto& [question, id] : coloured)
+      EXPECT_EQ(card_of(sheet, question), std::string("<div class=\"card ") + tone + "\">") << id << result;
+    EXPECT_EQ(card_of(sheet, "What not to trust?"), "<div class=\"card open\">");
+  }
+}
+
+/// 84 groups of three, two dozen sensors: behind a click, and there.
+TEST(VerificationPage, LongListsAndTablesCollapse) {
+  Json report = paper_report();
+  const Json sensor = report["array"]["sensors"][0], triple = report["array"]["triples"][0];
+  for (int k = 5; k <= 24; ++k) {
+    report["array"]["sensors"].push_back(sensor);
+    report["array"]["sensors"].back()["id"] = "a" + std::to_string(k);
+    report["array"]["critical_sensors"].push_back("a" + std::to_string(k));
+  }
+  while (report["array"]["triples"].size() < 84) report["array"]["triples"].push_back(triple);
+  const std::string html = render::verification_html(report, {});
+  EXPECT_TRUE(plumb_test::says(html, {"<details class=\"long\"><summary>Sensors (24 rows)</summary>",
+                                      "<details><summary>20 sensors</summary>a5, a6, ",
+                                      "<details class=\"folded\"><summary>Every group of three</summary>"}));
+  EXPECT_EQ(render::verification_html(paper_report(), {}).find("<details class=\"long\">"), std::string::npos);
+}
+
+TEST(VerificationPage, AChartStandsThereForADeskAndForAPhoneAndAScriptOnlyBesideAChart) {
+  render::PagePictures pictures;
+  pictures["times.svg"] = {"<svg data-axes=\"[]\"></svg>", "", "<svg class=\"n\"></svg>"};
+  const std::string html = render::verification_html(paper_report(), pictures);
+  EXPECT_TRUE(plumb_test::says(html, {"<div class=\"plot broad\"", "<div class=\"plot narrow\"", "<script>"}));
+  EXPECT_EQ(render::page_html({"title", "lead", {}, "footer"}).find("<script"), std::string::npos);
+}
+
+TEST(VerificationPlots, OneWildStationDoesNotFlattenTheOthers) {
+  Json report = paper_report();
+  Json stations = Json::array();
+  for (int k = 0; k < 20; ++k)
+    stations.push_back({{"norm_error_mps2", k == 7 ? 3.0 : 1e-4 * (k % 5)}, {"held_out", Json()}});
+  report["calibration"]["fit"]["stations"] = stations;
+  std::string script;
+  for (const render::PlotFile& file : render::verification_plot_files(report, {}))
+    if (file.name == render::kVerificationScript) script = file.text.substr(file.text.find("residuals.svg"));
+  EXPECT_TRUE(plumb_test::says(script, {"set label '+306' at first 8,"}));
+  const double top = std::stod(script.substr(script.find("set yrange [-") + 13));
+  EXPECT_LT(top, 1.0) << "mg0: the others stay within 0.04";
+}
+
 TEST(VerificationPage, NamesCannotBreakOut) {
   Json report = paper_report();
   report["subject"]["name"] = "<script>alert(1)</script>";
   report["array"]["sensors"][0]["id"] = "a<b&\"c";
   const std::string html = render::verification_html(report, {});
-  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_EQ(html.find("<script>alert"), std::string::npos);
   EXPECT_EQ(html.find("a<b&"), std::string::npos);
   EXPECT_NE(html.find("a&lt;b&amp;"), std::string::npos);
 }
@@ -142,7 +221,7 @@ TEST(VerificationPlots, DrawWhatTheJsonHolds) {
   const std::size_t last = times.rfind('\n', times.size() - 2);
   EXPECT_NE(times.substr(last + 1).find(",1,1"), std::string::npos) << times;
   for (const std::string& name : render::verification_picture_names(report, geometry)) {
-    EXPECT_NE(script.find("set output '" + name + "'"), std::string::npos) << name;
+    EXPECT_NE(script.find(".'" + name + "'\n"), std::string::npos) << name;
     EXPECT_TRUE(std::filesystem::exists(plumb_test::verified_paper_tool() / "report" / "charts" / name)) << name;
   }
 }

@@ -15,6 +15,7 @@ struct Picture {
   std::string svg;      ///< fit for inlining (`inline_svg`); empty: `missing` is shown
   std::string missing;  ///< why there is no picture
   std::string caption;  ///< what to see in it
+  std::string narrow;   ///< the same drawn for a phone; empty: there is the one only
 };
 
 struct Table {
@@ -33,6 +34,7 @@ struct FileLink {
 /// One of the few numbers that matter.
 struct Figure {
   std::string value, label;
+  std::string tone = "";  ///< "good", "bad" or "open": its colour
 };
 
 /// Shown in this order: text, figures, story, pictures, tables, commands, files.

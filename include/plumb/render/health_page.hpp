@@ -7,6 +7,7 @@
 
 #include "plumb/array/sensor_array.hpp"
 #include "plumb/render/verification_page.hpp"
+#include "plumb/verification/residual_trace.hpp"
 #include "plumb/verification/tool_health.hpp"
 
 namespace plumb {
@@ -20,6 +21,9 @@ inline constexpr int kHealthVersion = 1;
 /// is to be done.
 Json health_json(const verification::ToolHealth& health, const SensorArray& array,
                  const std::vector<std::string>& beside = {});
+
+/// What every sensor said beside the others, for the charts.
+Json residuals_json(const verification::ResidualTrace& trace, const SensorArray& array);
 
 /// Data and one gnuplot program, kHealthScript, that draws every picture for which there is data.
 std::vector<PlotFile> health_plot_files(const Json& report);

@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 struct PagePicture {
   std::string svg;      ///< fit for inlining (`inline_svg`); empty: `missing` is shown
   std::string missing;  ///< why there is none
+  std::string narrow;   ///< the same drawn for a phone; empty: there is the one only
 };
 /// By the name of its SVG file.
 using PagePictures = std::map<std::string, PagePicture>;
