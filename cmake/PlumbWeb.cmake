@@ -10,13 +10,6 @@ plumb_compile_settings(plumb_web_native)
 plumb_optimise_less(plumb_web_native)
 target_link_libraries(plumb_web_native PRIVATE plumb_render)
 
-if(TARGET plumb_replay)
-  add_test(NAME web.replay COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/replay.sh" "$<TARGET_FILE:plumb_replay>"
-    "${PROJECT_SOURCE_DIR}")
-  set_tests_properties(web.replay PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 3600 RUN_SERIAL ON)
-endif()
-if(PLUMB_PYTHON3)
-  add_test(NAME web.page COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/page.sh" "$<TARGET_FILE:plumb_web_native>"
-    "${PROJECT_SOURCE_DIR}" "${PLUMB_PYTHON3}")
-  set_tests_properties(web.page PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800 RUN_SERIAL ON)
-endif()
+add_test(NAME web.stories COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/stories.sh" "$<TARGET_FILE:plumb_web_native>"
+  "${PROJECT_SOURCE_DIR}")
+set_tests_properties(web.stories PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800)

@@ -127,7 +127,7 @@ export class Break {
   private series(): Series {
     const column = <T>(name: string, f: (x: number) => T): T[] => Array.from({ length: this.count() }, (_, k) => f(this.of(k, name)));
     const plain = (x: number): number => x;
-    const some = (x: number): number | null => (Number.isFinite(x) ? x : null);
+    const some = (x: number): number | null => (x > 0 && Number.isFinite(x) ? x : null); // for a logarithm
     return {
       time: column("time_s", plain),
       state: column("state", plain),
@@ -198,7 +198,7 @@ export class Break {
   private tellVerdict(k: number, state: number): void {
     const words = this.core.words;
     const text = (name: string) => (name || "none").replaceAll("_", " ");
-    const name = make("span", { class: "state", style: `background:${kStateColours[state]}` }, stateWords(words.states[state]));
+    const name = make("span", { class: "state", style: `--state:${kStateColours[state]}` }, stateWords(words.states[state]));
     const n = this.scene.axes.length;
     const least = Array.from({ length: n }, (_, i) => this.of(k, `minimum_faults_${i + 1}`));
     const rows: [string, Node | string][] = [

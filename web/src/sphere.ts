@@ -148,7 +148,7 @@ export class Sphere {
 
   private draw(): void {
     const width = this.element.clientWidth;
-    if (!this.renderer || width === 0) return;
+    if (!this.renderer || width === 0 || this.labels.childElementCount === 0) return;
     const height = this.element.clientHeight;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);

@@ -112,7 +112,7 @@ export class Timeline {
     });
     const charts: [string, uPlot.Series[], boolean, string][] = [
       ["Statistic of the test that decided, against its limit",
-        [line("statistic", kStateColours[2]), line("limit", kStateColours[5], { dash: [5, 4] })], false, "sigma"],
+        [line("statistic", kStateColours[2]), line("limit", kStateColours[5], { dash: [5, 4] })], true, ""],
       ["How far the direction is off",
         [line("all sensors, no monitor", ink("--soft")), line("what plumb says", kStateColours[0], { width: 2 }),
           line("protection level", kStateColours[5], { dash: [5, 4] })], true, "deg"],
