@@ -12,4 +12,10 @@ target_link_libraries(plumb_web_native PRIVATE plumb_render)
 
 add_test(NAME web.stories COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/stories.sh" "$<TARGET_FILE:plumb_web_native>"
   "${PROJECT_SOURCE_DIR}")
-set_tests_properties(web.stories PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800)
+set_tests_properties(web.stories PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800
+  RESOURCE_LOCK explorer_build)  # both build the page in the same folder
+if(PLUMB_PYTHON3)
+  add_test(NAME web.page COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/page.sh" "$<TARGET_FILE:plumb_web_native>"
+    "${PROJECT_SOURCE_DIR}" "${PLUMB_PYTHON3}")
+  set_tests_properties(web.page PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800 RESOURCE_LOCK explorer_build)
+endif()

@@ -80,7 +80,15 @@ export class Timeline {
       scales: { x: { time: false }, y: { distr: logarithmic ? 3 : 1 } },
       axes: [
         { ...axis, size: 34 },
-        { ...axis, size: 52, label: units, labelSize: 16, values: logarithmic ? (_, at) => at.map((v) => (v === null || Math.abs(Math.log10(v) % 1) > 1e-6 ? "" : String(v))) : undefined },
+        {
+          ...axis,
+          size: 52,
+          label: units || undefined,
+          labelSize: 16,
+          // Of a logarithm the powers of ten alone: their parts would fill a small chart with lines.
+          ...(logarithmic ? { filter: (_: uPlot, at: number[]) => at.map((v) => (isPower(v) ? v : (null as unknown as number))) } : {}),
+          values: logarithmic ? (_: uPlot, at: (number | null)[]) => at.map((v) => (v === null ? "" : String(v))) : undefined,
+        },
       ],
       series: [{ label: "time", value: (_, v) => (v === null ? "" : `${v.toFixed(2)} s`) }, ...series],
       hooks: {
@@ -148,6 +156,8 @@ export class Timeline {
     context.fillRect(this.now * scale - ratio, 0, 2 * ratio, this.band.height);
   }
 }
+
+const isPower = (v: number): boolean => Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6;
 
 /** For a chart with a logarithm: nothing is drawn where there is no figure. */
 export function degreesFor(rad: number): number | null {
