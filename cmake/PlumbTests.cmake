@@ -337,6 +337,8 @@ if(TARGET plumb_replay)
   set_tests_properties(replay.quick PROPERTIES LABELS "host;slow" TIMEOUT 300)
 endif()
 
+include(PlumbWeb)
+
 # The monitors of several capacities behind `plumb monitor`, linked into one program.
 if(TARGET plumb_tool)
   plumb_test_executable(plumb_stepper_tests LABEL host ROOMS session LIBRARIES plumb_session plumb_render

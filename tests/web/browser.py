@@ -1,0 +1,239 @@
+"""browser.py NATIVE SOURCE [SHOTS]: the explorer in a browser. No message on the console, no request, what the page says is what the
+native core says (NATIVE: plumb_web_native), a slider changes the verdicts, an axis can be typed and dragged, a phone has no
+horizontal scroll, keyboard and screen reader find their way (axe-core). Needs what scripts/web builds and what group `more` of
+scripts/packages names; it is skipped, saying so, where that is not there. With SHOTS, screenshots go into that directory."""
+
+import base64
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    print("skipped: no selenium (Debian packages python3-selenium chromium-driver)")
+    sys.exit(77)
+
+WIDTHS = {"phone": 360, "desk": 1280}
+AXE_TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]
+MOST_FIRST_PICTURE_MS = 1000  # on a machine that does nothing else; a loaded one is told, not failed
+MOST_PAGE_BYTES = 1_400_000
+
+
+def skip(why):
+    print("skipped:", why)
+    sys.exit(77)
+
+
+def open_browser():
+    options = Options()
+    for argument in ("--headless=new", "--no-sandbox", "--hide-scrollbars", "--disable-dev-shm-usage",
+                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+
+
+class Page:
+    def __init__(self, browser, native, source):
+        self.browser, self.native, self.source = browser, native, source
+
+    def script(self, text, *arguments):
+        return self.browser.execute_script("return " + text, *arguments)
+
+    def wait(self, what, seconds=60):
+        end = time.monotonic() + seconds
+        while not self.script(what):
+            assert time.monotonic() < end, f"not within {seconds} s: {what}"
+            time.sleep(0.05)
+
+    def open(self, file):
+        list(self.requests())
+        self.browser.get(file.as_uri())
+        self.wait("document.body.dataset.ready === 'yes'")
+        self.check_silence(file)
+
+    def requests(self):
+        for entry in self.browser.get_log("performance"):
+            message = json.loads(entry["message"])["message"]
+            if message["method"] == "Network.requestWillBeSent":
+                yield message["params"]["request"]["url"]
+
+    def check_silence(self, file):
+        """Nothing is said on the console, and nothing is fetched but the page and what lies beside it."""
+        console = [entry for entry in self.browser.get_log("browser") if "GPU stall" not in entry["message"]]
+        assert not console, console
+        beside = file.parent.as_uri() + "/"
+        foreign = [url for url in self.requests() if not url.startswith(("data:", "blob:", beside))]
+        assert not foreign, foreign
+
+    def view(self, width, dark):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [scheme]})
+        time.sleep(0.3)
+
+    def choose(self, select, value):
+        self.browser.execute_script("const s = document.getElementById(arguments[0]); s.value = arguments[1]; "
+                                    "s.dispatchEvent(new Event('change', {bubbles: true}));", select, value)
+
+    def tab(self, view):
+        self.browser.find_element(By.ID, f"tab-{view}").click()
+
+    def says(self, what, text):
+        done = subprocess.run([self.native, what], input=text, capture_output=True, text=True, check=True)
+        return done.stdout
+
+    def settle(self):
+        """The digest of the run once all of its samples are stepped."""
+        time.sleep(0.15)
+        self.wait("document.body.dataset.run.length === 16")
+        return self.script("document.body.dataset.run")
+
+    def check_run(self):
+        digest = self.settle()
+        scene = self.script("JSON.stringify(window.plumb.second.scene)")
+        told = self.says("begin", scene).splitlines()
+        assert told[-1] == f"digest {digest}", (told[-1], digest, scene)
+        return digest
+
+
+def check_design(page):
+    for option in page.script("[...document.querySelectorAll('#geometry option')].map(o => o.value)"):
+        if option == "own":
+            continue
+        page.choose("geometry", option)
+        design = page.script("JSON.stringify({...window.plumb.design.geometry, samples: 32})")
+        said = page.script("JSON.stringify(window.plumb.core.study(JSON.parse(arguments[0])))", design)
+        assert json.loads(said) == json.loads(page.says("study", design)), option
+    page.choose("geometry", "paper-tetrahedron")
+    figures = "document.getElementById('design-figures').textContent"
+    before = page.script(figures)
+    box = page.browser.find_elements(By.CSS_SELECTOR, "#axes input")[3]
+    box.send_keys(Keys.CONTROL, "a")
+    box.send_keys("0.3")
+    page.wait(f"{figures} !== {json.dumps(before)}")
+    assert page.script("document.getElementById('geometry').value") == "own"
+    check_drag(page)
+    # Three axes in one plane are refused, with a remedy; then all is well again.
+    page.choose("geometry", "triad")
+    for box, value in zip(page.browser.find_elements(By.CSS_SELECTOR, "#axes input")[6:], ("1", "1", "0")):
+        box.send_keys(Keys.CONTROL, "a")
+        box.send_keys(value)
+    page.wait("!document.getElementById('design-error').hidden")
+    assert "emedy" in page.script("document.getElementById('design-error').textContent")
+    page.choose("geometry", "platonic:6")
+    assert page.script("document.getElementById('design-error').hidden")
+
+
+def check_drag(page):
+    """The tip of the first axis is where its label is, less the label's distance."""
+    page.choose("geometry", "paper-tetrahedron")
+    canvas = page.browser.find_element(By.CSS_SELECTOR, "#design-sphere canvas")
+    page.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", canvas)
+    at = page.script("(() => { const l = document.querySelector('#design-sphere .sphere-labels span').style; "
+                     "return [parseFloat(l.left) / 100 - 0.5, parseFloat(l.top) / 100 - 0.5]; })()")
+    size = canvas.size
+    x, y = at[0] * size["width"] / 1.14, at[1] * size["height"] / 1.14
+    axis = "JSON.stringify(window.plumb.design.geometry.axes[0])"
+    before = page.script(axis)
+    actions = ActionChains(page.browser)
+    actions.move_to_element_with_offset(canvas, int(x), int(y)).click_and_hold().move_by_offset(-25, -20).release().perform()
+    assert page.script(axis) != before, "the axis was not dragged"
+
+
+def check_break(page):
+    page.tab("break")
+    digests = set()
+    for preset in page.script("[...document.querySelectorAll('#preset option')].map(o => o.value)"):
+        page.choose("preset", preset)
+        digests.add(page.check_run())
+    assert len(digests) == len(page.script("[...document.querySelectorAll('#preset option')]")), "two stories are the same"
+    page.choose("preset", "drift")
+    before = page.check_run()
+    slider = page.browser.find_element(By.CSS_SELECTOR, "#faults input[type=range]")
+    page.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", slider)
+    slider.send_keys(Keys.PAGE_UP)
+    assert page.check_run() != before, "a slider changes nothing"
+    for entry in page.script("[...document.querySelectorAll('#faults option')].map(o => o.value).filter(v => /^F\\d/.test(v))"):
+        page.browser.execute_script("const s = document.querySelector('#faults select.grow'); s.value = arguments[0]; "
+                                    "s.dispatchEvent(new Event('change'))", entry)
+        page.settle()
+        assert page.script("document.getElementById('break-error').hidden"), (entry, page.script("document.getElementById('break-error').textContent"))
+        page.check_run()
+    page.choose("tool", "design")
+    page.check_run()
+    page.choose("preset", "drill-a")
+    page.settle()
+    page.browser.find_elements(By.CSS_SELECTOR, "#events button")[0].click()
+    assert page.script("document.querySelector('#machine .was-taken') !== null")
+    page.browser.find_element(By.ID, "play").click()
+    then = page.script("document.getElementById('time').textContent")
+    page.wait(f"document.getElementById('time').textContent !== {json.dumps(then)}")
+    page.browser.find_element(By.ID, "play").click()
+
+
+def check_looks(page, shots):
+    axe = (pathlib.Path(page.source) / "web/node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
+    page.browser.execute_script(axe)
+    for view in ("design", "break"):
+        page.tab(view)
+        for name, width in WIDTHS.items():
+            for dark in (False, True):
+                page.view(width, dark)
+                where = f"{view}-{name}-{'dark' if dark else 'light'}"
+                if shots:
+                    shoot(page, pathlib.Path(shots) / f"{where}.png", width)
+                wide = page.script("document.documentElement.scrollWidth")
+                assert wide <= width, (where, wide)
+                found = page.browser.execute_async_script(
+                    "const done = arguments[1]; axe.run({runOnly: arguments[0]}).then(r => done(r.violations.map(v => "
+                    "v.id + ': ' + v.nodes.map(n => n.target + ' ' + n.failureSummary).join(' | '))))", AXE_TAGS)
+                assert not found, (where, found)
+
+
+def shoot(page, path, width):
+    high = page.script("document.documentElement.scrollHeight")
+    clip = {"x": 0, "y": 0, "width": width, "height": min(high, 12000), "scale": 1}
+    shot = page.browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True, "clip": clip})
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(base64.b64decode(shot["data"]))
+
+
+def main(native, source, shots=None):
+    built = pathlib.Path(source) / "build/web"
+    if not (built / "explorer.html").is_file():
+        skip("the page is not built (scripts/web)")
+    if not shutil.which("chromedriver"):
+        skip("no chromedriver (Debian package chromium-driver)")
+    assert (built / "explorer.html").stat().st_size < 2 * MOST_PAGE_BYTES
+    browser = open_browser()
+    browser.set_script_timeout(120)
+    try:
+        page = Page(browser, native, source)
+        page.view(WIDTHS["desk"], False)
+        page.open((built / "explorer" / "index.html").resolve())
+        page.open((built / "explorer.html").resolve())
+        first = page.script("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        print(f"first picture after {first:.0f} ms, {MOST_FIRST_PICTURE_MS} are meant")
+        check_design(page)
+        check_break(page)
+        page.check_silence((built / "explorer.html").resolve())
+        check_looks(page, shots)
+        page.check_silence((built / "explorer.html").resolve())
+    finally:
+        browser.quit()
+    print("the page is sound")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,285 @@
+// The first view: a geometry, what it is worth, and the array file of it.
+import { Core, Refusal, type Vec3 } from "./core";
+import { byId, deg, download, figure, kG0, make, mg0, table } from "./dom";
+import { kAxisColours, Sphere } from "./sphere";
+
+export interface Geometry {
+  name: string;
+  axes: Vec3[];
+  noise_mps2: number;
+}
+
+const kBuiltIn: [string, string][] = [
+  ["paper-tetrahedron", "Tetrahedron of the paper, 4"],
+  ["platonic:4", "Octahedron's faces, 4"],
+  ["cone-axis:5", "Cone and its axis, 5"],
+  ["cone:5", "Cone, 5"],
+  ["platonic:6", "Dodecahedron's faces, 6"],
+  ["cone-axis:8", "Cone and its axis, 8"],
+  ["cone:8", "Cone, 8"],
+  ["triads", "Two triads, turned against each other, 6"],
+  ["triad", "One triad, 3"],
+];
+
+/** A second triad, turned by 45 deg about x and then about z. */
+function triads(): Vec3[] {
+  const r = Math.SQRT1_2;
+  return [[1, 0, 0], [0, 1, 0], [0, 0, 1], [r, r, 0], [-0.5, 0.5, r], [0.5, -0.5, r]];
+}
+
+export class Design {
+  geometry: Geometry;
+  private readonly sphere: Sphere;
+  private waiting = 0;
+
+  constructor(
+    private readonly core: Core,
+    private readonly changed: () => void,
+  ) {
+    this.geometry = { name: "paper-tetrahedron", axes: core.builtin("paper-tetrahedron"), noise_mps2: 2e-4 * kG0 };
+    this.sphere = new Sphere("The axes of the sensors on a sphere. The table beside it holds the same numbers.", (k, axis, done) =>
+      this.move(k, axis, done),
+    );
+    byId("design-sphere").append(this.sphere.element);
+    const choice = byId<HTMLSelectElement>("geometry");
+    for (const [name, words] of kBuiltIn) choice.append(make("option", { value: name }, words));
+    choice.append(make("option", { value: "own" }, "Own axes"));
+    choice.addEventListener("change", () => this.choose(choice.value));
+    const noise = byId<HTMLInputElement>("noise");
+    noise.addEventListener("input", () => {
+      const value = Number(noise.value);
+      if (!(value > 0)) return;
+      this.geometry.noise_mps2 = value * 1e-6 * kG0;
+      this.later();
+    });
+    byId("add-axis").addEventListener("click", () => this.resize(this.geometry.axes.length + 1));
+    byId("remove-axis").addEventListener("click", () => this.resize(this.geometry.axes.length - 1));
+    byId("download-array").addEventListener("click", () => download(`${this.fileName()}.toml`, this.arrayFile()));
+    this.show();
+  }
+
+  choose(name: string): void {
+    if (name !== "own") this.geometry = { ...this.geometry, name, axes: name === "triads" ? triads() : this.core.builtin(name) };
+    this.show();
+  }
+
+  /** The array file of these axes, as the tool reads it: sensors of the paper's kind. */
+  arrayFile(): string {
+    const head = `name = "${this.fileName()}"
+
+[gravity]
+model = "value"
+value = "${kG0} m/s^2"
+sigma = "0.15 mg"
+
+[input]
+reads = "gravity"
+unit = "V"
+time = "t_s"
+station = "station"
+
+[monitor]
+alert_frame = "calibrated-axes"
+`;
+    const noise = Number(((this.geometry.noise_mps2 * 1e6) / kG0).toPrecision(12));
+    const component = (x: number) => (Number.isInteger(x) ? `${x === 0 ? 0 : x}.0` : String(x));
+    const sensors = this.units().map(
+      (axis, i) => `
+[[sensor]]
+id = "a${i + 1}"
+axis = [${axis.map(component).join(", ")}]
+scale = "3 V/g0"
+noise = "${noise} ug0"
+full_scale = "5 V"
+resolution = "152.587890625 uV"
+prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
+`,
+    );
+    return head + sensors.join("");
+  }
+
+  private fileName(): string {
+    return this.geometry.name.replace(":", "-");
+  }
+
+  private units(): Vec3[] {
+    return this.geometry.axes.map((axis) => {
+      const length = Math.hypot(...axis);
+      return Math.abs(length - 1) > 1e-9 ? (axis.map((x) => x / length) as Vec3) : axis;
+    });
+  }
+
+  private own(): void {
+    this.geometry.name = "own";
+    byId<HTMLSelectElement>("geometry").value = "own";
+  }
+
+  private resize(n: number): void {
+    if (n < 3 || n > this.core.words.capacity) return;
+    const spread = n - this.geometry.axes.length;
+    if (spread < 0) this.geometry.axes = this.geometry.axes.slice(0, n);
+    else this.geometry.axes = [...this.geometry.axes, this.farthest()];
+    this.own();
+    this.show();
+  }
+
+  /** The direction whose line is farthest from those of all axes, of many on a spiral. */
+  private farthest(): Vec3 {
+    let best: Vec3 = [0, 0, 1];
+    let least = 2;
+    for (let k = 0; k < 400; ++k) {
+      const z = 1 - (2 * k + 1) / 400;
+      const r = Math.sqrt(1 - z * z);
+      const a = k * Math.PI * (3 - Math.sqrt(5));
+      const axis: Vec3 = [r * Math.cos(a), r * Math.sin(a), z];
+      const near = Math.max(...this.units().map((u) => Math.abs(u[0] * axis[0] + u[1] * axis[1] + u[2] * axis[2])));
+      if (near < least) [least, best] = [near, axis];
+    }
+    return best.map((x) => Number(x.toFixed(4))) as Vec3;
+  }
+
+  private move(index: number, axis: Vec3, done: boolean): void {
+    this.geometry.axes[index] = axis.map((x) => Number(x.toFixed(4))) as Vec3;
+    this.own();
+    this.drawSphere();
+    this.fillInputs();
+    if (done) this.study();
+    else this.later();
+  }
+
+  /** Studies once the hand rests. */
+  private later(): void {
+    clearTimeout(this.waiting);
+    this.waiting = window.setTimeout(() => this.study(), 150);
+  }
+
+  private show(): void {
+    this.tabulate();
+    this.drawSphere();
+    this.study();
+  }
+
+  private drawSphere(): void {
+    this.sphere.show(
+      this.geometry.axes.map((axis, i) => ({ label: `a${i + 1}`, colour: kAxisColours[i % kAxisColours.length], axis })),
+    );
+  }
+
+  private tabulate(): void {
+    const rows = this.geometry.axes.map((_, i) => [
+      make("span", { class: "dot", style: `--dot:${kAxisColours[i % kAxisColours.length]}` }, `a${i + 1}`),
+      ...["x", "y", "z"].map((name, k) => {
+        const input = make("input", { type: "number", step: "0.01", min: -1, max: 1, "aria-label": `a${i + 1} ${name}` });
+        input.addEventListener("input", () => {
+          if (input.value === "" || !Number.isFinite(input.valueAsNumber)) return;
+          this.geometry.axes[i][k] = input.valueAsNumber;
+          this.own();
+          this.drawSphere();
+          this.later();
+        });
+        return input;
+      }),
+    ]);
+    byId("axes").replaceChildren(table("Axes of the sensors", ["sensor", "x", "y", "z"], rows));
+    this.fillInputs();
+  }
+
+  private fillInputs(): void {
+    const inputs = byId("axes").querySelectorAll("input");
+    this.geometry.axes.flat().forEach((x, k) => {
+      if (document.activeElement !== inputs[k]) inputs[k].value = String(Number(x.toFixed(4)));
+    });
+  }
+
+  private study(): void {
+    clearTimeout(this.waiting);
+    try {
+      const said = this.core.study({ ...this.geometry, samples: 32, map: 1 });
+      byId("design-error").hidden = true;
+      this.tell(said);
+      this.changed();
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      byId("design-error").hidden = false;
+      byId("design-error").textContent = error.message;
+    }
+  }
+
+  // eslint-disable-next-line @typescript-eslint/no-explicit-any
+  private tell(said: any): void {
+    const merit = said.figures_of_merit;
+    const sizes = said.detection_sizes.stability_0 ?? Object.values(said.detection_sizes).find((v) => v && typeof v === "object");
+    const card = (value: string, label: string, tone = "") =>
+      make("div", { class: `card ${tone}` }, make("b", {}, value), make("span", {}, label));
+    byId("design-figures").replaceChildren(
+      card(String(merit.confirmed_grade), `${plural(merit.confirmed_grade, "faulty sensor")} can be isolated and excluded`, merit.confirmed_grade ? "good" : ""),
+      card(mg0(sizes.minimum_detectable_bias_mps2), "minimum detectable bias"),
+      card(mg0(sizes.guaranteed_detection_any_mps2), "guaranteed detection threshold, any attitude"),
+      card(mg0(sizes.guaranteed_isolation_mps2), "guaranteed isolation threshold"),
+      card(protection(sizes), "protection level at rest"),
+    );
+    byId("design-merit").replaceChildren(
+      table(
+        "Figures of merit",
+        ["figure", "value"],
+        [
+          ["GDOP: noise of the vector in noises of a sensor", figure(merit.gdop, "")],
+          ["Condition", figure(merit.condition, "")],
+          ["Smallest angle between two axes", figure(merit.nearest_angle_deg, "deg")],
+          ["Smallest |det| of three axes", figure(merit.min_triple_det, "")],
+          ["Most axes in one plane", String(merit.coplanarity)],
+          ["Faults isolated without knowing gravity (provisional)", String(merit.provisional_grade)],
+          ["Faults that may agree with one another", String(merit.correlated_grade)],
+          ["Visibility of a bias that all share", figure(merit.common_bias_visibility, "")],
+          ["Critical sensors", said.critical_sensors.length ? said.critical_sensors.join(" ") : "none"],
+        ],
+      ),
+    );
+    const list = (id: string, items: string[], none: string) =>
+      byId(id).replaceChildren(...(items.length ? items : [none]).map((text) => make("li", {}, text)));
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    list("design-hidden", said.unobservable_permutations.map((h: any) => `${h.what}: turns the vector by ${figure(h.turn_deg, "deg")}`), "None: every exchange and reversal shows at some attitude.");
+    // eslint-disable-next-line @typescript-eslint/no-explicit-any
+    list("design-limits", [...said.warnings, ...said.known_limits].map((f: any) => f.text), "None.");
+    drawMap(said.map);
+  }
+}
+
+const plural = (n: number, word: string): string => (n === 1 ? word : `${word}s`);
+
+// eslint-disable-next-line @typescript-eslint/no-explicit-any
+function protection(sizes: any): string {
+  const key = Object.keys(sizes).find((name) => name.startsWith("protection_level"))!;
+  const value = sizes[key];
+  return value === null ? "none" : key.endsWith("rad") ? deg(value) : figure(value, "deg");
+}
+
+/** What of one attitude alone is guaranteed, over inclination (down) and toolface (across). */
+function drawMap(cells: [number, number, number | null, number][]): void {
+  const canvas = byId<HTMLCanvasElement>("design-map");
+  const caption = byId("design-map-words");
+  const figureOf = canvas.closest("figure")!;
+  figureOf.hidden = cells.length === 0;
+  if (cells.length === 0) return;
+  const step = cells[1][1] - cells[0][1];
+  const across = 360 / step + 1;
+  const down = cells.length / across;
+  canvas.width = across;
+  canvas.height = down;
+  const finite = cells.map((cell) => cell[2]).filter((x): x is number => x !== null && x > 0);
+  const least = Math.log(Math.min(...finite));
+  const most = Math.log(Math.max(...finite));
+  const context = canvas.getContext("2d")!;
+  const image = context.createImageData(across, down);
+  cells.forEach((cell, k) => {
+    const part = cell[2] === null || cell[2] <= 0 ? 1 : (Math.log(cell[2]) - least) / (most - least || 1);
+    // From blue, small faults are isolated, over white to red: large ones only.
+    const low = [47, 120, 183], mid = [242, 240, 232], high = [197, 58, 58];
+    const colour = part < 0.5 ? low.map((c, i) => c + (mid[i] - c) * 2 * part) : mid.map((c, i) => c + (high[i] - c) * (2 * part - 1));
+    image.data.set([...colour, 255], 4 * k);
+  });
+  context.putImageData(image, 0, 0);
+  const words = `From one attitude alone every larger fault is isolated: ${figure(1000 * Math.exp(least), "mg0")} at the best attitude (blue), ${figure(1000 * Math.exp(most), "mg0")} at the worst (red). Inclination 0 deg at the top to 180 deg, toolface 0 to 360 deg across.`;
+  caption.textContent = words;
+  canvas.setAttribute("aria-label", words);
+}

@@ -1,0 +1,54 @@
+import { Core } from "./core";
+import { Break } from "./play";
+import { Design } from "./design";
+import { byId, make } from "./dom";
+
+declare global {
+  /** The core, packed: put into the page beside this script. */
+  const PLUMB_CORE: string;
+}
+
+async function unpacked(text: string): Promise<ArrayBuffer> {
+  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+}
+
+/** Tabs as the reader of a screen expects them: arrows move, one tab stop. */
+function connectTabs(): void {
+  const tabs = [...document.querySelectorAll<HTMLButtonElement>("[role=tab]")];
+  const choose = (tab: HTMLButtonElement, focus: boolean) => {
+    for (const one of tabs) {
+      const chosen = one === tab;
+      one.setAttribute("aria-selected", String(chosen));
+      one.tabIndex = chosen ? 0 : -1;
+      byId(one.getAttribute("aria-controls")!).hidden = !chosen;
+    }
+    if (focus) tab.focus();
+    history.replaceState(null, "", `#${tab.dataset.view}`);
+  };
+  tabs.forEach((tab, k) => {
+    tab.addEventListener("click", () => choose(tab, false));
+    tab.addEventListener("keydown", (event) => {
+      const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+      if (step) choose(tabs[(k + step + tabs.length) % tabs.length], true);
+    });
+  });
+  const asked = tabs.find((tab) => `#${tab.dataset.view}` === location.hash);
+  if (asked) choose(asked, false);
+}
+
+async function start(): Promise<void> {
+  connectTabs();
+  const core = await Core.load(await unpacked(PLUMB_CORE));
+  let second: Break | null = null;
+  const design = new Design(core, () => second?.redesigned());
+  second = new Break(core, () => design.geometry);
+  document.body.dataset.ready = "yes";
+  // What the tests ask of the page.
+  Object.assign(window, { plumb: { core, design, second } });
+}
+
+start().catch((error: Error) => {
+  byId("main").prepend(make("p", { class: "card notice bad", role: "alert" }, `The page cannot run here: ${error.message}`));
+  throw error;
+});
