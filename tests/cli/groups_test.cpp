@@ -155,10 +155,10 @@ TEST(GroupsCommand, MagnetometersAreAlignedByTheCalibrationOfTheAccelerometers) 
   EXPECT_GE(file["frame_alignment"]["stations"].get<int>(), 15);
   EXPECT_NEAR(file["frame_alignment"]["base_bound_rad"].get<double>(), 0.3 / 57.2957795, 1e-5);
   const Outcome watched = run(desk(), {"monitor", "--array", "open.toml", "--calibration", "acc.json", "--log",
-                                       "stand.csv", "--group", "mag=aligned.json", "--report", "aligned.html"});
+                                       "stand.csv", "--group", "mag=aligned.json", "--report", "watched.html"});
   EXPECT_EQ(watched.code, 0) << watched.err;
-  EXPECT_TRUE(has(read_text(desk() / "aligned-mag.json"), "\"source\":\"dip\"") ||
-              has(read_text(desk() / "aligned-mag.json"), "\"source\": \"dip\""));
+  EXPECT_TRUE(has(read_text(desk() / "watched-mag.json"), "\"source\":\"dip\"") ||
+              has(read_text(desk() / "watched-mag.json"), "\"source\": \"dip\""));
 }
 
 // Negative: REQ-249
