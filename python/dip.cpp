@@ -77,7 +77,7 @@ void bind_dip(py::module_& module) {
   py::class_<Report>(module, "DipReport", "What the dip says of one block; sensors by their ids.")
       .def_property_readonly(
           "verdict", [](const Report& r) { return std::string(to_string(r.found.answer.verdict)); },
-          "\"not judged\", \"consistent\", \"unseen\", \"fault\" or \"unexplained\".")
+          "\"not_judged\", \"consistent\", \"unseen\", \"fault\" or \"unexplained\".")
       .def_property_readonly(
           "refusal", [](const Report& r) { return std::string(to_string(r.found.answer.refusal)); },
           "Why it is not judged.")
@@ -107,15 +107,15 @@ void bind_dip(py::module_& module) {
       "place. assumption: \"any fault\", or \"constant bias\", of the fault from block to block.")
       .def(py::init<Monitor&, Array, const std::string&>(), py::arg("monitor"), py::arg("magnetic").none(false),
            py::arg("assumption") = "any fault", py::keep_alive<1, 2>())
-      .def(
-          "add", &DipWatch::add, py::arg("field_nt"), py::arg("axis_sigma_nt"), py::arg("axis_bound_nt") = 0.0,
-          py::arg("interference_nt") = 0.0, py::arg("turn_rad") = 0.0,
-          "After a run that ended with a block at rest. field_nt: (3), mean of healthy magnetometers over that block,\n"
-          "tool frame. axis_sigma_nt and axis_bound_nt: noise and calibration of each component; interference_nt: "
-          "bound\n"
-          "on what is added to the vector; turn_rad: bound on the turn of the magnetometers against the "
-          "accelerometers.\n"
-          "Returns a DipReport.")
+      .def("add", &DipWatch::add, py::arg("field_nt"), py::arg("axis_sigma_nt"), py::arg("axis_bound_nt") = 0.0,
+           py::arg("interference_nt") = 0.0, py::arg("turn_rad") = 0.0,
+           "After a run whose last row is a tick: a block at rest is complete. field_nt: (3), mean of healthy "
+           "magnetometers over that block,\n"
+           "tool frame. axis_sigma_nt and axis_bound_nt: noise and calibration of each component; interference_nt: "
+           "bound\n"
+           "on what is added to the vector; turn_rad: bound on the turn of the magnetometers against the "
+           "accelerometers.\n"
+           "Returns a DipReport.")
       .def("forget", &DipWatch::forget, "Begin anew: after an exclusion or a repair.");
 }
 
