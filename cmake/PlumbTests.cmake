@@ -506,7 +506,7 @@ add_test(NAME example.navigation_files_are_short  # the first below 20 lines, al
 
 # The Python module, and the page that shows it.
 if(TARGET plumb_python)
-  foreach(name IN ITEMS plumb verdict motion motion_rest motion_clocks inclination rates page hypothesis)
+  foreach(name IN ITEMS plumb verdict motion motion_rest motion_clocks inclination rates dip page hypothesis)
     add_test(NAME python.${name}
       COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=$<TARGET_FILE_DIR:plumb_python>" "PLUMB_TOOL=$<TARGET_FILE:plumb_tool>"
               "PLUMB_SOURCE_DIR=${PROJECT_SOURCE_DIR}" "${Python_EXECUTABLE}" -B
@@ -528,7 +528,7 @@ if(TARGET plumb_python)
   add_test(NAME python.pip
     COMMAND bash "${PROJECT_SOURCE_DIR}/tests/python/pip.sh" "${PROJECT_SOURCE_DIR}" "${PROJECT_BINARY_DIR}"
             "${PROJECT_BINARY_DIR}/pip_test" "${Python_EXECUTABLE}")
-  set_tests_properties(python.plumb python.verdict python.motion python.motion_rest python.inclination python.rates python.page python.hypothesis python.pip PROPERTIES
+  set_tests_properties(python.plumb python.verdict python.motion python.motion_rest python.inclination python.rates python.dip python.page python.hypothesis python.pip PROPERTIES
     LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 600)
 elseif(PLUMB_BUILD_PYTHON)
   add_test(NAME python.plumb COMMAND bash -c "echo 'skipped: no Python module was built (python3-dev, python3-numpy, pybind11-dev)'; exit 77")

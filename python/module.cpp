@@ -79,4 +79,5 @@ PYBIND11_MODULE(plumb, module) {
   bind_monitor(module);
   bind_motion(module);
   bind_rates(module);
+  bind_dip(module);
 }

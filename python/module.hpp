@@ -125,5 +125,6 @@ void bind_calibration(py::module_& module);
 void bind_monitor(py::module_& module);
 void bind_motion(py::module_& module);
 void bind_rates(py::module_& module);
+void bind_dip(py::module_& module);
 
 }  // namespace plumb_python

@@ -31,7 +31,9 @@ Monitor::Monitor(Array array, const Calibration& calibration, const std::optiona
           snapshot
               ? plumb::session::restore_monitor(aligned(*array_, &calibration), made_for(*array_, calibration),
                                                 *snapshot, "snapshot", days)
-              : plumb::session::make_monitor(aligned(*array_, &calibration), made_for(*array_, calibration), days))) {}
+              : plumb::session::make_monitor(aligned(*array_, &calibration), made_for(*array_, calibration), days))),
+      setup_(
+          taken(plumb::session::monitor_setup(aligned(*array_, &calibration), made_for(*array_, calibration), days))) {}
 
 py::array_t<VerdictRow> Monitor::run(const Log& log) {
   const Log::View view(log, *array_);

@@ -50,6 +50,8 @@ class Monitor {
 
   const Array& array() const { return array_; }
   Turnstile& turnstile() { return turnstile_; }
+  /// What it was made from, without the gravity that was set since.
+  const plumb::MonitorSetup& setup() const noexcept { return *setup_; }
   /// The monitor, while no other thread is in `run`.
   plumb::HealthMonitor& idle() const {
     turnstile_.must_be_free();
@@ -60,6 +62,7 @@ class Monitor {
   Turnstile turnstile_;
   Array array_;
   std::unique_ptr<plumb::HealthMonitor> monitor_;
+  std::unique_ptr<plumb::MonitorSetup> setup_;
 };
 
 }  // namespace plumb_python

@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ROOMS = ["core", "numeric", "array", "gravity", "calibration", "detection", "navigation", "motion", "health", "c"]
-C_HEADERS = ["plumb.h", "plumb_motion.h", "plumb_rates.h"]
+C_HEADERS = ["plumb.h", "plumb_dip.h", "plumb_motion.h", "plumb_rates.h"]
 # 0xFFFF'FFFF: in C the mark between digits would begin a character, in a part that C does not even compile.
 MARKED = re.compile(r"(?<![\w'])\d[0-9A-Fa-fxX]*(?:'[0-9A-Fa-f]+)+")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">].*$')

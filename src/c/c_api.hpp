@@ -76,3 +76,29 @@ struct plumb_monitor {
   std::uint64_t alive = 0;
   plumb::HealthMonitor monitor;
 };
+
+namespace plumb {
+inline namespace PLUMB_ABI {
+namespace c_api {
+
+/// Marks storage that holds a monitor: memory that was never initialised, or was cleared, is answered with an error.
+inline constexpr std::uint64_t kMonitorAlive = 0x706c756d622d6331ULL;
+
+inline plumb_error check_monitor(const plumb_monitor* monitor, int argument) noexcept {
+  if (monitor == nullptr) return missing(argument);
+  return monitor->alive == kMonitorAlive ? answer(PLUMB_OK) : answer(PLUMB_NOT_INITIALISED);
+}
+
+/// A workspace as `argument`, beside the monitor in `storage`: where both share a byte, setting up the one would write
+/// over the other unseen.
+inline plumb_error desk_for(const void* workspace, size_t size, int argument, const void* storage) noexcept {
+  const plumb_error e = room_for<Workspace>(workspace, size, argument);
+  if (e.code != PLUMB_OK) return e;
+  const std::uintptr_t desk = address_of(workspace), home = address_of(storage);
+  const bool apart = desk < home ? home - desk >= sizeof(Workspace) : desk - home >= sizeof(plumb_monitor);
+  return apart ? e : answer(PLUMB_STORAGE_OVERLAPS, argument);
+}
+
+}  // namespace c_api
+}  // namespace PLUMB_ABI
+}  // namespace plumb

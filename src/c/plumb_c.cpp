@@ -11,27 +11,11 @@ namespace {
 using namespace plumb;
 using namespace plumb::c_api;
 
-/// Marks storage that holds a monitor: memory that was never initialised, or was cleared, is answered with an error.
-constexpr std::uint64_t kAlive = 0x706c756d622d6331ULL;
-
-/// A workspace as `argument`, beside the monitor in `storage`: where both share a byte, setting up the one would write
-/// over the other unseen.
-plumb_error desk_for(const void* workspace, size_t size, int argument, const void* storage) noexcept {
-  const plumb_error e = room_for<Workspace>(workspace, size, argument);
-  if (e.code != PLUMB_OK) return e;
-  const std::uintptr_t desk = address_of(workspace), home = address_of(storage);
-  const bool apart = desk < home ? home - desk >= sizeof(Workspace) : desk - home >= sizeof(plumb_monitor);
-  return apart ? e : answer(PLUMB_STORAGE_OVERLAPS, argument);
-}
-
 static_assert(static_cast<int>(kLastErrc) < PLUMB_NULL_POINTER, "codes of the C header begin above those of plumb");
 
 static_assert(std::is_trivially_destructible<plumb_monitor>::value, "storage may simply be dropped");
 
-plumb_error check(const plumb_monitor* m) noexcept {
-  if (m == nullptr) return missing(0);
-  return m->alive == kAlive ? answer(PLUMB_OK) : answer(PLUMB_NOT_INITIALISED);
-}
+plumb_error check(const plumb_monitor* m) noexcept { return check_monitor(m, 0); }
 
 /// What stood in the verdict before is not the answer to this call, and must not be taken for it.
 plumb_error without_verdict(const plumb_error& e, plumb_verdict* verdict) noexcept {
@@ -104,7 +88,7 @@ plumb_error plumb_monitor_init(void* storage, size_t storage_size, void* workspa
   auto* made = new (storage) plumb_monitor;
   e = answer(made->monitor.configure(work->setup));
   if (e.code != PLUMB_OK) return e;
-  made->alive = kAlive;
+  made->alive = kMonitorAlive;
   *monitor = made;
   return e;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "calibrate_aligned.hpp"
 #include "calibrate_known.hpp"
 #include "calibrate_motion.hpp"
 #include "fit_pictures.hpp"
@@ -35,6 +36,7 @@ struct CalibrateOptions {
   std::string plots;
   session::CalibrationTag tag;
   std::vector<std::string> known_attitudes;  ///< as written
+  std::string align_by;                      ///< calibration of the accelerometers; empty: none
   bool suggest = false;
   bool json = false;
   bool verbose = false;
@@ -124,11 +126,14 @@ io::FileExpected<void> draw_fit(const CalibrateOptions& options, const session::
 
 /// What belongs to the fit of a log at rest, as far as it is given.
 const char* option_of_a_fit(const CalibrateOptions& options) {
-  const std::pair<bool, const char*> at_rest[] = {
-      {!options.log.path.empty(), "--log"},   {!options.known_attitudes.empty(), "--known-attitude"},
-      {options.choice.paper_fits, "--paper"}, {!options.plots.empty(), "--plots"},
-      {options.rolls, "--roll-axis"},         {options.suggest, "--suggest"},
-      {options.verbose, "--verbose"}};
+  const std::pair<bool, const char*> at_rest[] = {{!options.log.path.empty(), "--log"},
+                                                  {!options.known_attitudes.empty(), "--known-attitude"},
+                                                  {!options.align_by.empty(), "--align-by"},
+                                                  {options.choice.paper_fits, "--paper"},
+                                                  {!options.plots.empty(), "--plots"},
+                                                  {options.rolls, "--roll-axis"},
+                                                  {options.suggest, "--suggest"},
+                                                  {options.verbose, "--verbose"}};
   for (const auto& [given, option] : at_rest) {
     if (given) return option;
   }
@@ -194,10 +199,13 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
                                  options.tag.date,
                                  options.json});
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
-  const std::vector<NamedFile> to_read = {{"--array", array_file_of(options.array)}, {"--log", options.log.path}};
+  const std::vector<NamedFile> to_read = {
+      {"--array", array_file_of(options.array)}, {"--log", options.log.path}, {"--align-by", options.align_by}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
   io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb calibrate", Serves::lengths);
   if (!array) return report(array.error());
+  if (const auto wrong = misuse_of_alignment(*array, options.align_by, !options.known_attitudes.empty()))
+    return report(*wrong);
   take_known_attitudes(options.known_attitudes, *array);
   if (options.rolls && array->input.roll_group_column.empty()) {
     return report(
@@ -211,7 +219,7 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
   watch_interrupts();
   session::CalibrationChoice choice = options.choice;
   choice.paper_fits = choice.paper_fits || array->monitor.mode == MonitorMode::paper;
-  const io::FileExpected<session::CalibrationRun> fit = session::run_calibration(*array, options.log, choice);
+  io::FileExpected<session::CalibrationRun> fit = session::run_calibration(*array, options.log, choice);
   if (!fit) return report(fit.error());
   print(options.json ? render::fit_json(*fit, *array)
                      : render::fit_text(*fit, *array, {options.verbose, options.suggest}));
@@ -229,8 +237,16 @@ io::ExitCode run_calibrate(const CalibrateOptions& options) {
                 " was not written. Remedy: " + refusal.next + ".\n");
     return fit->interrupted ? io::ExitCode::other : io::ExitCode::not_accepted;
   }
-  const io::FileExpected<void> saved =
-      session::save_calibration(options.out, *fit, *array, options.log.path, options.tag);
+  session::CalibrationTag tag = options.tag;
+  if (!options.align_by.empty()) {
+    std::string text;
+    const io::FileExpected<io::FrameAlignment> aligned =
+        align_group(options.array, options.align_by, options.log, *array, *fit, text);
+    if (!aligned) return report(aligned.error());
+    tag.alignment = *aligned;
+    if (!options.json) print(text);
+  }
+  const io::FileExpected<void> saved = session::save_calibration(options.out, *fit, *array, options.log.path, tag);
   if (!saved) return report(saved.error());
   if (!options.json && options.out != "-") print("written: " + options.out + "\n");
   if (!fit->interrupted) return io::ExitCode::done;
@@ -278,6 +294,11 @@ Command add_calibrate(const Options& tool) {
       .type_name("TEXT");
   add_bad_row_option(command, options->log.on_bad_row);
   add_known_attitude_option(command, options->known_attitudes);
+  command
+      .add_option("--align-by", options->align_by,
+                  "of a magnetic group: the calibration of the accelerometers, into whose frame the axes are turned by "
+                  "the dip at the stations that both held still in")
+      .type_name("ACC.json");
   command.add_flag("--paper", options->choice.paper_fits, "the paper's own fits too, kept in the calibration file");
   command
       .add_option(

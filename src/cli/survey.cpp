@@ -11,6 +11,7 @@
 #include "plumb/render/survey_report.hpp"
 #include "plumb/survey/station_file.hpp"
 #include "plumb/survey/survey_csv.hpp"
+#include "read_array.hpp"
 #include "survey_page.hpp"
 #include "survey_reference.hpp"
 #include "tool.hpp"
@@ -32,6 +33,7 @@ struct SurveyOptions {
   bool axial = false;
   bool align = false;
   std::string alignment_sigma;  // empty: kUsualAlignment
+  std::string sag_sigma, depth_sigma, depth_scale_sigma;
   std::string csv, page;
   bool json = false;
   io::BadRowPolicy on_bad_row = io::BadRowPolicy::stop;
@@ -69,6 +71,33 @@ io::FileExpected<double> alignment_within(const SurveyOptions& options) {
   return sigma;
 }
 
+io::FileExpected<survey::PathSigmas> path_sigmas(const SurveyOptions& options) {
+  survey::PathSigmas out;
+  struct Sigma {
+    const char* option;
+    const std::string& text;
+    io::Quantity quantity;
+    double most;
+    const char* form;
+    double& value;
+  };
+  for (const Sigma& one : {Sigma{"--sag-sigma", options.sag_sigma, io::Quantity::angle, rad_from_deg(5.0),
+                                 "above 0 and at most 5 deg, as in \"0.2 deg\"", out.sag_rad},
+                           Sigma{"--depth-sigma", options.depth_sigma, io::Quantity::length, 1000.0,
+                                 "above 0 and at most 1000 m, as in \"0.35 m\"", out.depth_m},
+                           Sigma{"--depth-scale-sigma", options.depth_scale_sigma, io::Quantity::ratio, 0.1,
+                                 "above 0 and at most 0.1 of the depth, as in \"5.6e-4\"", out.depth_scale}}) {
+    if (one.text.empty()) continue;
+    const io::FileExpected<double> found = quantity_option(one.quantity, one.option, one.text);
+    if (!found) return tl::unexpected<io::FileError>(found.error());
+    if (!(*found > 0.0 && *found <= one.most))
+      return tl::unexpected<io::FileError>(
+          io::FileError{one.option, 0, "", "is out of range", std::string("state ") + one.form, io::ExitCode::usage});
+    one.value = *found;
+  }
+  return out;
+}
+
 io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& options) {
   survey::SurveySettings out;
   out.station.checks.limits = options.limits;
@@ -84,6 +113,9 @@ io::FileExpected<survey::SurveySettings> survey_settings(const SurveyOptions& op
     return tl::unexpected<io::FileError>(io::FileError{"--alignment-sigma", 0, "", "no alignment is asked for",
                                                        "add --align-magnetometers", io::ExitCode::usage});
   }
+  const io::FileExpected<survey::PathSigmas> path = path_sigmas(options);
+  if (!path) return tl::unexpected<io::FileError>(path.error());
+  out.path = *path;
   if (!options.convergence.empty()) {
     const io::FileExpected<double> angle = quantity_option(io::Quantity::angle, "--convergence", options.convergence);
     if (!angle) return tl::unexpected<io::FileError>(angle.error());
@@ -115,6 +147,7 @@ std::string command_of(const SurveyOptions& o) {
   const SurveyOptions usual;
   const ReferenceOptions& r = o.reference;
   const std::tuple<const char*, const std::string&, const std::string&> texts[] = {
+      {"--array", r.array, usual.reference.array},
       {"--place", r.place, usual.reference.place},
       {"--height", r.height, usual.reference.height},
       {"--date", r.date, usual.reference.date},
@@ -131,6 +164,9 @@ std::string command_of(const SurveyOptions& o) {
       {"--noise-gravity", o.noise_gravity, usual.noise_gravity},
       {"--noise-field", o.noise_field, usual.noise_field},
       {"--alignment-sigma", o.alignment_sigma, usual.alignment_sigma},
+      {"--sag-sigma", o.sag_sigma, usual.sag_sigma},
+      {"--depth-sigma", o.depth_sigma, usual.depth_sigma},
+      {"--depth-scale-sigma", o.depth_scale_sigma, usual.depth_scale_sigma},
       {"--csv", o.csv, usual.csv},
       {"--report", o.page, usual.page}};
   std::string out = "plumb survey " + io::shell_word(o.stations);
@@ -167,9 +203,10 @@ io::ExitCode verdict(const SurveyOptions& options, const survey::Survey& found) 
 }
 
 io::ExitCode run_survey_command(const SurveyOptions& options) {
-  if (const auto clash =
-          overwritten({{"--csv", options.csv}, {"--report", options.page}},
-                      {{"STATIONS", options.stations}, {"--coefficients", options.reference.coefficients}}))
+  if (const auto clash = overwritten({{"--csv", options.csv}, {"--report", options.page}},
+                                     {{"STATIONS", options.stations},
+                                      {"--coefficients", options.reference.coefficients},
+                                      {"--array", array_file_of(options.reference.array)}}))
     return report(*clash);
   io::FileExpected<survey::SurveySettings> settings = survey_settings(options);
   if (!settings) return report(settings.error());
@@ -180,7 +217,11 @@ io::ExitCode run_survey_command(const SurveyOptions& options) {
   io::FileExpected<survey::StationFile> file = survey::read_stations(options.stations, options.on_bad_row);
   if (!file) return report(file.error());
   for (survey::Measurement& m : file->stations) m.random = survey::independent_covariance(*noise_gravity, *noise_field);
-  const auto stations = referenced(file->stations, options.reference);
+  std::string notes;
+  const io::FileExpected<ReferenceOptions> reference = with_array(options.reference, notes);
+  if (!reference) return report(reference.error());
+  print_error(notes);
+  const auto stations = referenced(file->stations, *reference);
   if (!stations) return report(stations.error());
   if (const auto missing = missing_for_north(options, stations->front().reference)) return report(*missing);
 
@@ -188,6 +229,7 @@ io::ExitCode run_survey_command(const SurveyOptions& options) {
                                    file->gravity_unit,
                                    file->field_unit,
                                    file->rows_left_out,
+                                   options.reference.array,
                                    *settings,
                                    stations->front().reference,
                                    stations->back().reference,
@@ -204,7 +246,8 @@ io::ExitCode run_survey_command(const SurveyOptions& options) {
   }
   if (!options.page.empty()) {
     const std::vector<std::pair<const char*, std::string>> inputs{{"stations", options.stations},
-                                                                  {"coefficients", options.reference.coefficients}};
+                                                                  {"coefficients", options.reference.coefficients},
+                                                                  {"array", array_file_of(options.reference.array)}};
     if (const auto written = write_survey_page(options.page, found, inputs, command_of(options)); !written)
       return report(written.error());
   }
@@ -267,6 +310,16 @@ Command add_survey(const Options& tool) {
       .add_option("--alignment-sigma", options->alignment_sigma,
                   "how far they may be turned, 1 sigma; an estimate has to be better (default \"0.5 deg\")")
       .type_name("\"0.5 deg\"");
+  command
+      .add_option("--sag-sigma", options->sag_sigma,
+                  "sag of the tool in a horizontal hole, 1 sigma of its inclination, for positions (none)")
+      .type_name("\"0.2 deg\"");
+  command.add_option("--depth-sigma", options->depth_sigma, "measured depth, alike at all stations, 1 sigma (none)")
+      .type_name("\"0.35 m\"");
+  command
+      .add_option("--depth-scale-sigma", options->depth_scale_sigma,
+                  "measured depth, in proportion to it, 1 sigma (none)")
+      .type_name("5.6e-4");
   command.add_option("--csv", options->csv, "write the survey as a table").type_name("OUT.csv");
   command.add_option("--report", options->page, "write a page with every check, plots (gnuplot) and references")
       .type_name("FILE.html");

@@ -13,6 +13,10 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
+constexpr const char* kUsualFieldSigma = "130 nT";
+constexpr const char* kUsualDipSigma = "0.2 deg";
+constexpr const char* kUsualDeclinationSigma = "0.4 deg";
+
 io::FileError option_error(const char* option, io::FileError error) {
   error.file = option;
   error.code = io::ExitCode::usage;
@@ -22,32 +26,6 @@ io::FileError option_error(const char* option, io::FileError error) {
 tl::unexpected<io::FileError> refuse(const char* option, std::string what, std::string remedy) {
   return tl::unexpected<io::FileError>(
       io::FileError{option, 0, "", std::move(what), std::move(remedy), io::ExitCode::usage});
-}
-
-/// "60.4, 2.1", degrees north and east.
-io::FileExpected<geomagnetic::Place> place_of(const ReferenceOptions& options) {
-  geomagnetic::Place out;
-  const char* at = options.place.data();
-  const char* const end = at + options.place.size();
-  const auto skip = [&](const char* what) {
-    while (at != end && std::string_view(what).find(*at) != std::string_view::npos) ++at;
-  };
-  auto read = std::from_chars(at, end, out.latitude_deg);
-  at = read.ptr;
-  const bool first = read.ec == std::errc();
-  skip(" ,");
-  read = std::from_chars(at, end, out.longitude_deg);
-  at = read.ptr;
-  skip(" ");
-  if (!first || read.ec != std::errc() || at != end)
-    return refuse("--place", "is not latitude and longitude in degrees",
-                  "write it as in \"60.40, 2.10\", north and east");
-  if (!options.height.empty()) {
-    const io::FileExpected<double> height = quantity_option(io::Quantity::length, "--height", options.height);
-    if (!height) return tl::unexpected<io::FileError>(height.error());
-    out.height_m = *height;
-  }
-  return out;
 }
 
 /// Where the tool is and when, and by which model.
@@ -94,13 +72,16 @@ io::FileExpected<std::optional<geomagnetic::FieldReference>> stated_field(const 
                   "state both, or give --place and --date instead");
   geomagnetic::StatedField stated;
   stated.declination_known = !options.declination.empty();
+  const auto or_usual = [](const std::string& text, const char* usual) { return text.empty() ? usual : text; };
   const auto field = field_option("--field", options.field),
-             field_sigma = field_option("--field-sigma", options.field_sigma);
+             field_sigma = field_option("--field-sigma", or_usual(options.field_sigma, kUsualFieldSigma));
   const auto dip = quantity_option(io::Quantity::angle, "--dip", options.dip);
-  const auto dip_sigma = quantity_option(io::Quantity::angle, "--dip-sigma", options.dip_sigma);
+  const auto dip_sigma =
+      quantity_option(io::Quantity::angle, "--dip-sigma", or_usual(options.dip_sigma, kUsualDipSigma));
   const auto declination = quantity_option(io::Quantity::angle, "--declination",
                                            stated.declination_known ? options.declination : std::string("0 deg"));
-  const auto declination_sigma = quantity_option(io::Quantity::angle, "--declination-sigma", options.declination_sigma);
+  const auto declination_sigma = quantity_option(io::Quantity::angle, "--declination-sigma",
+                                                 or_usual(options.declination_sigma, kUsualDeclinationSigma));
   for (const auto* read : {&field, &field_sigma, &dip, &dip_sigma, &declination, &declination_sigma}) {
     if (!*read) return tl::unexpected<io::FileError>(read->error());
   }
@@ -130,28 +111,95 @@ io::FileExpected<std::optional<GravityReference>> stated_gravity(const Reference
   return std::optional<GravityReference>(*out);
 }
 
-/// Gravity and field at that depth below the place.
-io::FileExpected<survey::Reference> by_model(const Where& where, const ReferenceOptions& options, double depth_m,
-                                             bool field_wanted) {
-  survey::Reference out;
+/// 1 sigma that is stated instead of the model's, common to all stations; 0: not stated.
+struct StatedSigmas {
+  double gravity_mps2 = 0.0, field_tesla = 0.0, dip_rad = 0.0, declination_rad = 0.0;
+};
+
+io::FileExpected<StatedSigmas> stated_sigmas(const ReferenceOptions& options) {
+  StatedSigmas out;
+  const auto read = [](const char* option, const std::string& text, const auto& parse,
+                       double& value) -> io::FileExpected<void> {
+    if (text.empty()) return {};
+    const io::FileExpected<double> found = parse(option, text);
+    if (!found) return tl::unexpected<io::FileError>(found.error());
+    if (!(*found > 0.0)) return refuse(option, "must be above 0", "state 1 sigma of the reference, or leave it out");
+    value = *found;
+    return {};
+  };
+  const auto angle = [](const char* option, const std::string& text) {
+    return quantity_option(io::Quantity::angle, option, text);
+  };
+  const auto acceleration = [](const char* option, const std::string& text) {
+    return quantity_option(io::Quantity::acceleration, option, text);
+  };
+  for (const io::FileExpected<void>& one :
+       {read("--gravity-sigma", options.gravity_sigma, acceleration, out.gravity_mps2),
+        read("--field-sigma", options.field_sigma, field_option, out.field_tesla),
+        read("--dip-sigma", options.dip_sigma, angle, out.dip_rad),
+        read("--declination-sigma", options.declination_sigma, angle, out.declination_rad)}) {
+    if (!one) return tl::unexpected<io::FileError>(one.error());
+  }
+  return out;
+}
+
+io::FileExpected<GravityReference> gravity_at(const Where& where, const ReferenceOptions& options,
+                                              const StatedSigmas& sigmas, double depth_m) {
   NormalGravityInput input;
-  input.latitude_deg = where.place.latitude_deg;
-  input.elevation_m = where.place.height_m;
+  if (options.normal_gravity) {
+    input = *options.normal_gravity;
+  } else {
+    input.latitude_deg = where.place.latitude_deg;
+    input.elevation_m = where.place.height_m;
+  }
+  if (sigmas.gravity_mps2 > 0.0) input.sigma_mps2 = sigmas.gravity_mps2;
   input.depth_m = depth_m > 0.0 ? depth_m : 0.0;
   const Expected<GravityReference> gravity = normal_gravity(input);
   if (!gravity) return tl::unexpected<io::FileError>(option_error("--place", io::from_error(gravity.error())));
-  out.gravity = *gravity;
-  if (!field_wanted) return out;
+  return *gravity;
+}
+
+io::FileExpected<geomagnetic::FieldReference> modelled_field(const Where& where, const ReferenceOptions& options,
+                                                             const StatedSigmas& sigmas, double depth_m) {
   geomagnetic::Place place = where.place;
   place.height_m -= depth_m;
   const io::FileExpected<geomagnetic::EarthField> field = geomagnetic::field_at(where.model, place, *where.year);
   if (!field) return tl::unexpected<io::FileError>(option_error("--place, --date", field.error()));
   const bool trade = options.errors == ReferenceErrors::iscwsa;
-  out.field = geomagnetic::reference_of(*field, trade ? geomagnetic::iscwsa_errors() : geomagnetic::wmm2025_errors());
+  geomagnetic::FieldReference out =
+      geomagnetic::reference_of(*field, trade ? geomagnetic::iscwsa_errors() : geomagnetic::wmm2025_errors());
+  if (sigmas.field_tesla > 0.0) out.total_tesla_sigma = {sigmas.field_tesla, 0.0};
+  if (sigmas.dip_rad > 0.0) out.dip_rad_sigma = {sigmas.dip_rad, 0.0};
+  if (sigmas.declination_rad > 0.0) out.declination_rad_sigma = {sigmas.declination_rad, 0.0};
   return out;
 }
 
 }  // namespace
+
+io::FileExpected<geomagnetic::Place> place_of(const ReferenceOptions& options) {
+  geomagnetic::Place out;
+  const char* at = options.place.data();
+  const char* const end = at + options.place.size();
+  const auto skip = [&](const char* what) {
+    while (at != end && std::string_view(what).find(*at) != std::string_view::npos) ++at;
+  };
+  auto read = std::from_chars(at, end, out.latitude_deg);
+  at = read.ptr;
+  const bool first = read.ec == std::errc();
+  skip(" ,");
+  read = std::from_chars(at, end, out.longitude_deg);
+  at = read.ptr;
+  skip(" ");
+  if (!first || read.ec != std::errc() || at != end)
+    return refuse("--place", "is not latitude and longitude in degrees",
+                  "write it as in \"60.40, 2.10\", north and east");
+  if (!options.height.empty()) {
+    const io::FileExpected<double> height = quantity_option(io::Quantity::length, "--height", options.height);
+    if (!height) return tl::unexpected<io::FileError>(height.error());
+    out.height_m = *height;
+  }
+  return out;
+}
 
 io::FileExpected<double> quantity_option(io::Quantity quantity, const char* option, const std::string& text) {
   io::FileExpected<double> out = io::parse_quantity(quantity, text);
@@ -173,23 +221,23 @@ io::FileExpected<std::vector<survey::ReferencedStation>> referenced(const std::v
   if (!field) return tl::unexpected<io::FileError>(field.error());
   const auto gravity = stated_gravity(options);
   if (!gravity) return tl::unexpected<io::FileError>(gravity.error());
-  if (!*where && !*gravity)
-    return refuse("--gravity", "is missing: nothing says how large gravity is", "state it, or give --place");
+  const auto sigmas = stated_sigmas(options);
+  if (!sigmas) return tl::unexpected<io::FileError>(sigmas.error());
+  if (!*where && !options.normal_gravity && !*gravity)
+    return refuse("--gravity", "is missing: nothing says how large gravity is", "state it, or give --place or --array");
   if (!*field && (!*where || !(*where)->year))
     return refuse(*where ? "--date" : "--field", "is missing: nothing says how large the magnetic field is",
-                  "give --place and --date, or state --field and --dip");
+                  "give --place and --date, or --array, or state --field and --dip");
   const std::vector<double> depth_m = survey::depths_m(stations);
   std::vector<survey::ReferencedStation> out;
   for (std::size_t k = 0; k < stations.size(); ++k) {
-    survey::ReferencedStation one{stations[k], {}};
-    if (*where) {
-      const auto reference = by_model(**where, options, depth_m[k], !*field);
-      if (!reference) return tl::unexpected<io::FileError>(reference.error());
-      one.reference = *reference;
-    }
-    if (*gravity) one.reference.gravity = **gravity;
-    if (*field) one.reference.field = **field;
-    out.push_back(one);
+    const auto one_gravity = *gravity ? io::FileExpected<GravityReference>(**gravity)
+                                      : gravity_at(where->value_or(Where{}), options, *sigmas, depth_m[k]);
+    if (!one_gravity) return tl::unexpected<io::FileError>(one_gravity.error());
+    const auto one_field = *field ? io::FileExpected<geomagnetic::FieldReference>(**field)
+                                  : modelled_field(**where, options, *sigmas, depth_m[k]);
+    if (!one_field) return tl::unexpected<io::FileError>(one_field.error());
+    out.push_back({stations[k], {*one_gravity, *one_field}});
   }
   return out;
 }
@@ -198,6 +246,8 @@ void add_reference_options(const Options& command, ReferenceOptions& options) {
   const auto text = [&](const char* name, std::string& value, const char* type, const char* about) {
     command.add_option(name, value, about).type_name(type);
   };
+  text("--array", options.array, "TOOL.toml[#mag]",
+       "gravity from its [gravity], the field from the [group.reference] of its magnetic group; options override");
   text("--place", options.place, "\"LAT, LON\"", "of the well, degrees north and east: gravity and field by models");
   text("--height", options.height, "\"25 m\"", "of measured depth 0 above the ellipsoid, 0 by default");
   text("--date", options.date, "YYYY-MM-DD", "of the survey: the field changes by years");
@@ -208,14 +258,18 @@ void add_reference_options(const Options& command, ReferenceOptions& options) {
                   "how sure the model of the field is: ISCWSA's figures (default), or NOAA's of WMM2025")
       .type_name("iscwsa|wmm");
   text("--gravity", options.gravity, "\"9.81 m/s^2\"", "stated instead of the model");
-  text("--gravity-sigma", options.gravity_sigma, "\"0.15 mg\"", "1 sigma of it");
+  text("--gravity-sigma", options.gravity_sigma, "\"0.15 mg\"",
+       "1 sigma of gravity, stated or by the model (default \"0.15 mg\")");
   text("--field", options.field, "\"50812 nT\"", "stated instead of the model, with --dip");
-  text("--field-sigma", options.field_sigma, "\"130 nT\"", "1 sigma of it (default \"130 nT\")");
+  text("--field-sigma", options.field_sigma, "\"130 nT\"",
+       "1 sigma of the field (default \"130 nT\" of a stated one, else the model's)");
   text("--dip", options.dip, "\"72.4 deg\"", "of the stated field, down positive");
-  text("--dip-sigma", options.dip_sigma, "\"0.2 deg\"", "1 sigma of it (default \"0.2 deg\")");
+  text("--dip-sigma", options.dip_sigma, "\"0.2 deg\"",
+       "1 sigma of the dip (default \"0.2 deg\" of a stated one, else the model's)");
   text("--declination", options.declination, "\"-0.6 deg\"",
        "of the stated field, east positive; without it azimuths are magnetic");
-  text("--declination-sigma", options.declination_sigma, "\"0.4 deg\"", "1 sigma of it (default \"0.4 deg\")");
+  text("--declination-sigma", options.declination_sigma, "\"0.4 deg\"",
+       "1 sigma of it (default \"0.4 deg\" of a stated one, else the model's)");
 }
 
 }  // namespace cli

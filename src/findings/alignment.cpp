@@ -38,6 +38,14 @@ Mat3 of_attitudes(const io::ArrayFile& array, const std::vector<MeasuredAttitude
 /// Twice the sine of half an angle is what a turn moves a direction across its axis by, at most.
 double angle_of_chord(double chord) noexcept { return chord < 2.0 ? 2.0 * std::asin(0.5 * chord) : kPi; }
 
+double bound_of(const io::FrameAlignment& alignment, double integrity_risk) noexcept {
+  double values[3] = {};
+  Mat3 covariance = alignment.covariance_rad2;
+  if (!symmetric_eigenvalues(covariance.data(), 3, 3, values)) return kPi;
+  const double turn = std::sqrt(chi2_tail_quantile(integrity_risk, 3) * std::fmax(values[2], 0.0));
+  return std::fmin(kPi, alignment.base_bound_rad + turn);
+}
+
 }  // namespace
 
 const char* to_string(AlignmentSource source) noexcept {
@@ -46,6 +54,7 @@ const char* to_string(AlignmentSource source) noexcept {
     case AlignmentSource::datasheet: return "datasheet";
     case AlignmentSource::roll_groups: return "roll_groups";
     case AlignmentSource::known_attitudes: return "known_attitudes";
+    case AlignmentSource::dip: return "dip";
   }
   return "?";
 }
@@ -79,6 +88,9 @@ Alignment alignment_of(const io::ArrayFile& array, const Calibration* calibratio
 }
 
 Alignment alignment_of(const io::ArrayFile& array, const io::CalibrationFile* file) {
+  const auto stated_rad = static_cast<double>(array.monitor.alignment_bound_rad);
+  if (file != nullptr && file->alignment && !(stated_rad > 0.0))
+    return {bound_of(*file->alignment, array.monitor.integrity_risk), AlignmentSource::dip};
   return alignment_of(array, file != nullptr ? &file->calibration : nullptr, measured_attitudes_of(file, array));
 }
 

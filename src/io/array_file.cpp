@@ -208,7 +208,7 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   const GroupNode own{root, path, FieldKind::gravity, ""};
   const bool accelerometers = group.empty() && (root.find("sensor") != nullptr || root.find("group") == nullptr);
   if (accelerometers) {
-    out.gravity = read_gravity(root, path);
+    out.gravity = read_gravity(root, path, out.basis.normal_gravity);
     out.monitor = read_monitor(own);
   }
   out.input = read_input(root, path, out.datasheet.reads);

@@ -50,7 +50,7 @@ const std::vector<std::string>& fields_by_index() {
   return names;
 }
 
-GravityReference normal(const TomlTable& table, double sigma_mps2) {
+GravityReference normal(const TomlTable& table, double sigma_mps2, std::optional<NormalGravityInput>& asked) {
   refuse_unused(table, "normal", {"latitude", "elevation", "depth", "layers"});
   NormalGravityInput in;
   in.latitude_deg = deg_from_rad(table.need_quantity(
@@ -73,6 +73,7 @@ GravityReference normal(const TomlTable& table, double sigma_mps2) {
       out.thickness_m = layer.need_quantity(Quantity::length, "thickness", form);
     }
   }
+  asked = in;
   return checked(table, normal_gravity(in), fields_by_index());
 }
 
@@ -136,7 +137,8 @@ GravityReference from_table(const TomlTable& table, double sigma_mps2) {
 
 }  // namespace
 
-GravityReference read_gravity(const TomlNode& root, const std::string& file) {
+GravityReference read_gravity(const TomlNode& root, const std::string& file,
+                              std::optional<NormalGravityInput>& normal_input) {
   const TomlNode* node = root.find("gravity");
   if (node == nullptr) {
     throw Refusal(
@@ -155,7 +157,7 @@ GravityReference read_gravity(const TomlNode& root, const std::string& file) {
                       checked(table, given_gravity(g_mps2, sigma_mps2), {"value", "", "", "", "", "sigma"}));
     }
     case 3: return from_table(table, sigma_mps2);
-    default: return normal(table, sigma_mps2);
+    default: return normal(table, sigma_mps2, normal_input);
   }
 }
 

@@ -73,7 +73,7 @@ MagneticReference stated(const TomlTable& table) {
   return out;
 }
 
-MagneticReference modelled(const TomlTable& table, const FieldLookup& lookup) {
+MagneticReference modelled(const TomlTable& table, const FieldLookup& lookup, ReferenceBasis& basis) {
   if (!lookup)
     table.fail(table.line_of("model"), "model", "is \"wmm\", and this program brings no model of the Earth's field",
                "read the file with geomagnetic::lookup, or state the field: model = \"value\", value = \"50.8 uT\"");
@@ -85,7 +85,10 @@ MagneticReference modelled(const TomlTable& table, const FieldLookup& lookup) {
   place.height_m = table.quantity(Quantity::length, "height", 0.0);
   place.date = table.need_text("date", form);
   FileExpected<MagneticReference> found = lookup(place);
-  if (found) return *std::move(found);
+  if (found) {
+    basis.place = place;
+    return *std::move(found);
+  }
   const std::string& key = found.error().field;
   table.fail(table.line_of(key.c_str()), key, found.error().what, found.error().remedy);
 }
@@ -98,7 +101,8 @@ void refuse_unused(const TomlTable& table, const std::vector<std::string>& used)
   }
 }
 
-MagneticReference read_reference(const GroupNode& group, const TomlNode& node, const FieldLookup& lookup) {
+MagneticReference read_reference(const GroupNode& group, const TomlNode& node, const FieldLookup& lookup,
+                                 ReferenceBasis& basis) {
   static const std::vector<std::string> value = {"model", "value", "sigma", "dip", "dip_sigma"};
   static const std::vector<std::string> wmm = {"model", "latitude", "longitude", "height",
                                                "date",  "sigma",    "dip_sigma"};
@@ -107,7 +111,7 @@ MagneticReference read_reference(const GroupNode& group, const TomlNode& node, c
   const TomlTable table(node, group.file, group.prefix + "reference", known, FieldKind::magnetic);
   const bool model = table.choice("model", {"value", "wmm"}, 0) == 1;
   refuse_unused(table, model ? wmm : value);
-  MagneticReference out = model ? modelled(table, lookup) : stated(table);
+  MagneticReference out = model ? modelled(table, lookup, basis) : stated(table);
   const double sigma_ut = field_ut(table, "sigma", std::fmin(out.total_sigma_ut, kMostSigma_ut));
   out.total_sigma_ut = within(table, "sigma", sigma_ut, 0.0, kMostSigma_ut, "uT");
   if (table.has("dip")) {
@@ -116,6 +120,8 @@ MagneticReference read_reference(const GroupNode& group, const TomlNode& node, c
     out.dip_known = true;
   }
   out.dip_sigma_rad = table.quantity(Quantity::angle, "dip_sigma", out.dip_sigma_rad);
+  basis.total_sigma_stated = table.has("sigma");
+  basis.dip_sigma_stated = table.has("dip_sigma");
   if (table.has("dip_sigma")) {
     if (!out.dip_known)
       table.fail(table.line_of("dip_sigma"), "dip_sigma", "is given without a dip", "add dip, or remove it");
@@ -159,7 +165,7 @@ void read_magnetic(const GroupNode& group, const FieldLookup& lookup, ArrayFile&
     throw Refusal(FileError{group.file, group.node.line, group.prefix + "reference", "is missing",
                             "add [group.reference] with value = \"50.8 uT\", or with model = \"wmm\", latitude, "
                             "longitude and date"});
-  out.magnetic = read_reference(group, *node, lookup);
+  out.magnetic = read_reference(group, *node, lookup, out.basis);
   out.gravity = {kInside_per_ut * out.magnetic.total_ut, kInside_per_ut * out.magnetic.total_sigma_ut,
                  GravityModel::magnetic};
   out.monitor = read_monitor(group);

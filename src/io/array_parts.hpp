@@ -1,6 +1,7 @@
 /// The parts of `parse_array_text`, one function per section (private to src/io). They throw Refusal.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct GroupNode {
   std::string prefix;  ///< of its sections in messages: "group[1]."
 };
 
-GravityReference read_gravity(const TomlNode& root, const std::string& file);
+/// `normal`: what the model of that name was asked; of another model none.
+GravityReference read_gravity(const TomlNode& root, const std::string& file, std::optional<NormalGravityInput>& normal);
 MonitorConfig read_monitor(const GroupNode& group);
 /// Of [monitor]: what holds of every sensor that states nothing of its own.
 Stability read_usual_stability(const GroupNode& group);

@@ -119,6 +119,13 @@ void put_attitudes(const CalibrationContext& context, Json& root) {
   root["attitudes"] = object({{"down", std::move(down)}, {"known", std::move(known)}});
 }
 
+void put_alignment(const FrameAlignment& a, Json& root) {
+  root["frame_alignment"] = object({{"turn_rad", from_array(a.turn_rad, 3)},
+                                    {"covariance_rad2", from_array(a.covariance_rad2, 9)},
+                                    {"base_bound_rad", from_double(a.base_bound_rad)},
+                                    {"stations", a.stations}});
+}
+
 /// Objects one member a line, lists of plain values on one line: readable, and 4n lines rather than 8n^2.
 void print(const Json& value, int indent, std::string& out) {  // NOLINT(misc-no-recursion) five levels
   const bool nested = value.is_object() ||
@@ -169,7 +176,7 @@ std::string checksum_of(Json content) {
 }
 
 std::string calibration_json(const Calibration& calibration, const ArrayFile& array, const CalibrationContext& context,
-                             const PaperCalibration* paper) {
+                             const PaperCalibration* paper, const FrameAlignment* alignment) {
   const auto n = static_cast<std::size_t>(calibration.array.size());
   Json root;
   root["schema"] = kCalibrationSchema;
@@ -188,6 +195,7 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
   if (!context.serial.empty()) root["provenance"]["serial"] = context.serial;
   if (!context.coefficients.empty()) root["provenance"]["coefficients"] = context.coefficients;
   put_attitudes(context, root);
+  if (alignment != nullptr) put_alignment(*alignment, root);
   root["report"] = from_report(calibration.report, n);
   root["sensors"] = from_sensors(calibration);
   root["paper_parameters"] = from_paper_parameters(array.array, calibration);
@@ -203,9 +211,10 @@ std::string calibration_json(const Calibration& calibration, const ArrayFile& ar
 }
 
 FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,
-                                     const CalibrationContext& context, const PaperCalibration* paper) {
+                                     const CalibrationContext& context, const PaperCalibration* paper,
+                                     const FrameAlignment* alignment) {
   try {
-    return write_file(path, calibration_json(calibration, array, context, paper));
+    return write_file(path, calibration_json(calibration, array, context, paper, alignment));
   } catch (const std::exception& error) {  // text that is not UTF-8
     return tl::unexpected<FileError>(
         FileError{path, 0, "", error.what(), "use UTF-8 in names and paths", ExitCode::other});

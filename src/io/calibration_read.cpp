@@ -272,6 +272,18 @@ void read_attitudes(const Source& source, const Json& object, CalibrationContext
   }
 }
 
+FrameAlignment read_alignment(const Source& source, const Json& object) {
+  FrameAlignment out;
+  source.numbers_of(object, "turn_rad", out.turn_rad.data(), 3);
+  source.numbers_of(object, "covariance_rad2", out.covariance_rad2.data(), 9);
+  out.base_bound_rad = source.number_of(object, "base_bound_rad");
+  out.stations = source.whole_of<int>(object, "stations");
+  if (!out.plausible())
+    source.fail(source.line_of("frame_alignment", "\"covariance_rad2\""), "frame_alignment",
+                "is no rotation with a covariance and a bound of 0 to pi rad", kMakeAnew);
+  return out;
+}
+
 CalibrationContext read_context(const Source& source, const Json& root) {
   CalibrationContext context;
   const Json& gravity = source.member(root, "gravity");
@@ -299,6 +311,19 @@ CalibrationContext read_context(const Source& source, const Json& root) {
 
 }  // namespace
 
+bool FrameAlignment::plausible() const noexcept {
+  bool good = base_bound_rad >= 0.0 && base_bound_rad <= kPi && stations > 0 && norm(turn_rad) <= kPi;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double variance = covariance_rad2[4 * a];
+    good = good && variance > 0.0 && variance <= kPi * kPi;
+    for (std::size_t b = 0; b < a; ++b) {
+      const double both = covariance_rad2[3 * a + b];
+      good = good && both == covariance_rad2[3 * b + a] && both * both <= variance * covariance_rad2[4 * b];
+    }
+  }
+  return good;
+}
+
 FileExpected<CalibrationFile> read_calibration(const std::string& path, const ArrayFile& array) {
   FileExpected<std::string> text = read_file(path);
   if (!text) return tl::unexpected<FileError>(text.error());
@@ -315,6 +340,7 @@ FileExpected<CalibrationFile> read_calibration(const std::string& path, const Ar
       out.paper = read_paper(source, root["paper"], array);
       check_paper(source, *out.paper, out.calibration, array);
     }
+    if (root.contains("frame_alignment")) out.alignment = read_alignment(source, root["frame_alignment"]);
     if (root.contains("motion")) out.motion = read_motion(source, root["motion"], array);
     out.array_name = source.text_of(root["array"], "name");
     out.array_file = source.text_of(root["array"], "file");

@@ -17,6 +17,7 @@ const char* source_words(AlignmentSource source) {
     case AlignmentSource::roll_groups:
       return "by the roll groups, and about the roll axis by the axes of the datasheet";
     case AlignmentSource::known_attitudes: return "by the stations of known attitude";
+    case AlignmentSource::dip: return "by the dip of the field and the frame of the accelerometers";
   }
   return "";
 }

@@ -110,6 +110,19 @@ Json alignment_json(const survey::Survey& s) {
                  {"freedom", a.freedom}});
 }
 
+Json left_out_json(const survey::Survey& s) {
+  Json out = Json::array();
+  for (const std::size_t k : s.left_out) out.push_back(s.stations[k].measured.md_m);
+  return out;
+}
+
+Json path_sigmas_json(const survey::PathSigmas& sigmas) {
+  const auto stated = [](double sigma) { return sigma > 0.0 ? Json(sigma) : Json(); };
+  return object({{"sag_deg", stated(deg_from_rad(sigmas.sag_rad))},
+                 {"depth_m", stated(sigmas.depth_m)},
+                 {"depth_scale", stated(sigmas.depth_scale)}});
+}
+
 Json path_json(const survey::Survey& s) {
   Json out = Json::array();
   if (!s.path) return out;
@@ -146,6 +159,7 @@ nlohmann::ordered_json survey_json(const SurveyReport& r) {
                  {"integrity_risk", r.survey.integrity_risk},
                  {"limits", to_string(r.settings.station.checks.limits)},
                  {"false_alarm", r.settings.station.checks.false_alarm},
+                 {"array", r.array.empty() ? Json() : Json(io::printable_line(r.array))},
                  {"field_source", io::printable_line(f.source)},
                  {"declination_deg", f.declination_known ? Json(deg_from_rad(f.declination_rad)) : Json()},
                  {"declination_note", f.declination_note},
@@ -155,6 +169,8 @@ nlohmann::ordered_json survey_json(const SurveyReport& r) {
                  {"error_tests", std::move(tests)},
                  {"axial_interference", axial_json(r.survey)},
                  {"magnetometer_alignment", alignment_json(r.survey)},
+                 {"left_out_of_estimate_md_m", left_out_json(r.survey)},
+                 {"path_sigmas", path_sigmas_json(r.survey.path_sigmas)},
                  {"path", path_json(r.survey)}});
 }
 

@@ -247,7 +247,8 @@ Section path_section(const SurveyReport& r, const PagePictures& pictures) {
              "sigma north, m", "sigma east, m", "sigma TVD, m"},
             rows,
             "The first station is the origin, as deep as it is along the hole. Sigma: 1 sigma from the errors of "
-            "inclination and azimuth; errors of the measured depth and sag are not in it.");
+            "inclination and azimuth" +
+                sigma_words(r.survey.path_sigmas) + ".");
   return out;
 }
 

@@ -68,6 +68,7 @@ std::string survey_text(const SurveyReport& r) {
       fmt::format("{}: {} stations, accelerometers in {}, magnetometers in {}\n", io::printable_line(r.file),
                   r.survey.stations.size(), r.gravity_unit == "mps2" ? "m/s^2" : r.gravity_unit, r.field_unit);
   if (r.rows_left_out > 0) out += fmt::format("Rows left out for want of a number: {}\n", r.rows_left_out);
+  if (!r.array.empty()) out += "References: " + io::printable_line(r.array) + "\n";
   out += references(r);
   out += fmt::format("Noise of a station: {:.2f} mg, {:.0f} nT. Limits: {}", r.noise_mps2 / kMg_mps2,
                      r.noise_tesla * 1e9, to_string(r.settings.station.checks.limits));

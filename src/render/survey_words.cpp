@@ -61,20 +61,50 @@ std::string error_test_words(const survey::ErrorTest& test, double unit, const c
   return said;
 }
 
+namespace {
+
+std::string left_out_words(const survey::Survey& found) {
+  constexpr std::size_t kMostNamed = 8;
+  if (found.left_out.empty()) return "";
+  std::string out;
+  for (std::size_t k = 0; k < std::min(kMostNamed, found.left_out.size()); ++k)
+    out += fmt::format("{}{:.2f}", k == 0 ? "" : ", ", found.stations[found.left_out[k]].measured.md_m);
+  if (found.left_out.size() > kMostNamed) out += fmt::format(" and {} more", found.left_out.size() - kMostNamed);
+  return fmt::format(" Left out, as {} failed: {} m.",
+                     found.left_out.size() == 1 ? "a check of it" : "checks of theirs", out);
+}
+
+}  // namespace
+
+std::string sigma_words(const survey::PathSigmas& sigmas) {
+  if (!sigmas.any()) return ", none of it for sag and depth, of which no errors are stated";
+  std::string out;
+  const auto add = [&out](bool stated, const std::string& text) {
+    if (stated) out += (out.empty() ? "" : ", ") + text;
+  };
+  add(sigmas.sag_rad > 0.0, fmt::format("sag {:.3g} deg", deg_from_rad(sigmas.sag_rad)));
+  add(sigmas.depth_m > 0.0, fmt::format("depth {:.3g} m", sigmas.depth_m));
+  add(sigmas.depth_scale > 0.0, fmt::format("{:.3g} % of depth", 100.0 * sigmas.depth_scale));
+  return ", with the stated " + out;
+}
+
 std::string axial_words(const survey::Survey& found) {
   if (!found.axial) return "";
-  if (!*found.axial) return "Axial interference: not estimated: " + found.axial->error().text() + ".";
+  const std::string left_out = left_out_words(found);
+  if (!*found.axial) return "Axial interference: not estimated: " + found.axial->error().text() + "." + left_out;
   const survey::Estimate& e = **found.axial;
   const auto z = static_cast<std::size_t>(survey::Term::magnetometer_bias_z);
   return fmt::format(
       "Axial interference: {:.0f} nT, 1 sigma {:.0f} nT, taken off every station; its largest correlation with an "
-      "error of a reference is {:.2f}, which the sigma holds.",
-      e.value[z] * 1e9, e.sigma[z] * 1e9, e.largest_reference_correlation);
+      "error of a reference is {:.2f}, which the sigma holds.{}",
+      e.value[z] * 1e9, e.sigma[z] * 1e9, e.largest_reference_correlation, left_out);
 }
 
 std::string alignment_words(const survey::Survey& s) {
   if (!s.alignment) return "";
-  if (!*s.alignment) return "Alignment of the magnetometers: not estimated: " + s.alignment->error().text() + ".";
+  const std::string left_out = left_out_words(s);
+  if (!*s.alignment)
+    return "Alignment of the magnetometers: not estimated: " + s.alignment->error().text() + "." + left_out;
   const survey::JointAlignment& a = **s.alignment;
   const auto three = [](const Vec3& rad) {
     const auto one = [](double x) { return 0.0 + std::round(1000.0 * deg_from_rad(x)) / 1000.0; };  // no -0.000
@@ -87,8 +117,8 @@ std::string alignment_words(const survey::Survey& s) {
       three(a.turn_rad), three(a.sigma_rad), weakest.name(), deg_from_rad(weakest.sigma_rad));
   if (!weakest.with.empty())
     out += fmt::format(", which holds its correlation of {:.2f} with {}", weakest.correlation, weakest.with);
-  return out + fmt::format(". Dips held out: {:.3f} deg rms, {:.2f} times their sigma.",
-                           deg_from_rad(a.held_out.rms_rad), a.held_out.normalised);
+  return out + fmt::format(". Dips held out: {:.3f} deg rms, {:.2f} times their sigma.{}",
+                           deg_from_rad(a.held_out.rms_rad), a.held_out.normalised, left_out);
 }
 
 std::string path_words(const survey::Survey& found) {
@@ -98,11 +128,9 @@ std::string path_words(const survey::Survey& found) {
       "Path of {} stations, minimum curvature from {} north: at {:.2f} m north {:.2f} m, east {:.2f} m, true vertical "
       "depth {:.2f} m",
       found.path->size(), to_string(found.north), end.md_m, end.north_m, end.east_m, end.tvd_m);
-  if (found.position_covariance.empty())
-    return out + "; no sigma: the errors of an alignment are not carried along the path";
   const survey::PositionCovariance& c = found.position_covariance.back();
-  return out + fmt::format("; 1 sigma {:.2f} m, {:.2f} m, {:.2f} m from the first", std::sqrt(c[0]), std::sqrt(c[4]),
-                           std::sqrt(c[8]));
+  return out + fmt::format("; 1 sigma {:.2f} m, {:.2f} m, {:.2f} m from the first{}", std::sqrt(c[0]), std::sqrt(c[4]),
+                           std::sqrt(c[8]), sigma_words(found.path_sigmas));
 }
 
 }  // namespace render

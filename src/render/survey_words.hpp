@@ -21,10 +21,11 @@ std::string survey_level(const survey::OrUndefined<survey::Angle>& angle, double
 std::string flag_words(const survey::Survey& found);
 /// "passed", or what each part of the test found. `unit` is what figures are divided by, `name` what they are in then.
 std::string error_test_words(const survey::ErrorTest& test, double unit, const char* name, const survey::Survey& found);
-/// What became of the axial interference; empty where nobody asked.
-/// Empty where no alignment was asked for.
+/// What became of alignment and axial interference, with the stations left out of them; empty where nobody asked.
 std::string alignment_words(const survey::Survey& found);
 std::string axial_words(const survey::Survey& found);
+/// ", with the stated sag 0.2 deg", or that nothing is stated: of a position's sigma.
+std::string sigma_words(const survey::PathSigmas& sigmas);
 /// Where the path ends, or why there is none.
 std::string path_words(const survey::Survey& found);
 

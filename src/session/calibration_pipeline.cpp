@@ -241,18 +241,7 @@ void fit_stations(const io::ArrayFile& array, const CalibrationChoice& choice, C
   if (run.accepted && choice.paper_fits) fit_by_paper(array, run);
 }
 
-}  // namespace
-
-io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
-                                                 const CalibrationChoice& choice) {
-  if (choice.paper_fits && array.array.size() > kPaperCapacity) {
-    const std::string sensors = std::to_string(array.array.size());
-    return tl::unexpected<io::FileError>(io::FileError{
-        array.path, 0, "",
-        "the paper's fit supports at most " + std::to_string(kPaperCapacity) + " sensors, but this array has " +
-            sensors + " (their misalignments grow as the square of the number)",
-        "leave out --paper and mode = \"paper\", or describe a part of the sensors in another file"});
-  }
+io::FileExpected<void> read_stations(const io::ArrayFile& array, const LogSpec& log, CalibrationRun& run) {
   const io::ArrayFile asked = with_what_a_fit_reads(array);
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, asked, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
@@ -271,14 +260,38 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
     }
     if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());
   }
-  CalibrationRun run;
   run.interrupted = interrupted();
   collector.finish(run);
   run.log = reader->statistics();
+  return {};
+}
+
+}  // namespace
+
+io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, const LogSpec& log,
+                                                 const CalibrationChoice& choice) {
+  if (choice.paper_fits && array.array.size() > kPaperCapacity) {
+    const std::string sensors = std::to_string(array.array.size());
+    return tl::unexpected<io::FileError>(io::FileError{
+        array.path, 0, "",
+        "the paper's fit supports at most " + std::to_string(kPaperCapacity) + " sensors, but this array has " +
+            sensors + " (their misalignments grow as the square of the number)",
+        "leave out --paper and mode = \"paper\", or describe a part of the sensors in another file"});
+  }
+  CalibrationRun run;
+  if (const io::FileExpected<void> read = read_stations(array, log, run); !read)
+    return tl::unexpected<io::FileError>(read.error());
   fit_stations(array, choice, run);
   if (const std::optional<io::FileError> wrong = station_not_shown(array, run))
     return tl::unexpected<io::FileError>(*wrong);
   return run;
+}
+
+io::FileExpected<std::vector<Station>> find_stations(const io::ArrayFile& array, const LogSpec& log) {
+  CalibrationRun run;
+  if (const io::FileExpected<void> read = read_stations(array, log, run); !read)
+    return tl::unexpected<io::FileError>(read.error());
+  return std::move(run.stations);
 }
 
 io::FileError unknown_station(const io::KnownAttitude& known, std::size_t stations) {
@@ -319,7 +332,8 @@ io::FileExpected<void> save_calibration(const std::string& path, const Calibrati
   context.plumb_version = PLUMB_VERSION;
   context.gravity = array.gravity;
   note_attitudes(run, context);
-  return io::write_calibration(path, *run.accepted, array, context, run.paper.get());
+  return io::write_calibration(path, *run.accepted, array, context, run.paper.get(),
+                               tag.alignment ? &*tag.alignment : nullptr);
 }
 
 }  // namespace session

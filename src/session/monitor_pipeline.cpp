@@ -233,8 +233,8 @@ io::FileExpected<std::unique_ptr<HealthMonitor>> restore_monitor(const io::Array
                                                                  const Calibration* calibration,
                                                                  const std::string& bytes, const std::string& name,
                                                                  double days) {
-  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
-  if (!setup) return refused_setup(setup.error(), array);
+  const io::FileExpected<std::unique_ptr<MonitorSetup>> setup = monitor_setup(array, calibration, days);
+  if (!setup) return tl::unexpected<io::FileError>(setup.error());
   auto monitor = std::make_unique<HealthMonitor>();
   const Expected<void> restored =
       monitor->restore(**setup, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -256,6 +256,13 @@ CorrectedStation aligned(const Measurement& station, const JointAlignment& align
   return out;
 }
 
+CarriedWeights alignment_weights(const Measurement& station, const JointAlignment& alignment) {
+  CarriedWeights out{};
+  Eigen::Map<Eigen::Matrix<double, 6, kFirstReference, Eigen::RowMajor>>(out.data()) =
+      turned_station(station, matrix_of<3, 3>(alignment.rotation), alignment.value).weights;
+  return out;
+}
+
 }  // namespace survey
 }  // namespace PLUMB_ABI
 }  // namespace plumb

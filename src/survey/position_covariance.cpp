@@ -14,6 +14,8 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Matrix32 = Eigen::Matrix<double, 3, 2, Eigen::RowMajor>;
 constexpr int kTerms = static_cast<int>(kTermCount);
+constexpr int kCarried = static_cast<int>(kAlignmentUnknowns);
+constexpr int kFirstTerm = kCarried - kTerms;
 
 constexpr double kNearlyStraight_rad = 0.02;
 
@@ -38,44 +40,71 @@ Vec3 vec3_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 class Sums {
  public:
   /// `by_tangent`: how the position changes with the tangent of this station.
-  void add_systematic(const Matrix3& by_tangent, const PathStationErrors& at) {
+  void add_common(const Matrix3& by_tangent, const PathStationErrors& at) {
     if (!at.station.azimuth_known) {
       vertical_ += by_tangent * at.tilt_sigma_rad;
       return;
     }
     const Matrix32 by_angles = by_tangent * tangent_derivatives(at.station);
-    terms_ += by_angles * matrix_of<2, kTerms>(at.per_term);
+    carried_ += by_angles * matrix_of<2, kCarried>(at.carried);
     azimuth_ += by_angles.col(1);
+    sag_ += by_angles.col(0) * std::sin(at.station.inclination_rad);
   }
   void add_random(const Matrix3& by_tangent, const PathStationErrors& at) {
     if (!at.station.azimuth_known) return;
     const Matrix32 by_angles = by_tangent * tangent_derivatives(at.station);
     random_ += by_angles * matrix_of<2, 2>(at.random_rad2) * by_angles.transpose();
   }
-  Matrix3 covariance(const TermCovariance& terms, double declination_sigma_rad) const {
-    const Matrix3 vertical = vertical_.leftCols<2>() * vertical_.leftCols<2>().transpose();
-    return terms_ * matrix_of<kTerms, kTerms>(terms) * terms_.transpose() +
-           azimuth_ * azimuth_.transpose() * (declination_sigma_rad * declination_sigma_rad) + vertical + random_;
+  /// A length that is wrong by `constant` and by `scale` times a stated error.
+  void add_length(const Eigen::Vector3d& by_length, double constant, double scale) {
+    depth_ += by_length * constant;
+    depth_scale_ += by_length * scale;
+  }
+  Matrix3 covariance(const CommonErrors& common) const {
+    const auto alone = [](const Eigen::Vector3d& sum, double sigma) -> Matrix3 {
+      return sum * sum.transpose() * (sigma * sigma);
+    };
+    return carried_ * matrix_of<kCarried, kCarried>(common.carried) * carried_.transpose() +
+           alone(azimuth_, common.declination_sigma_rad) + alone(sag_, common.sag_sigma_rad) +
+           alone(depth_, common.depth_sigma_m) + alone(depth_scale_, common.depth_scale_sigma) +
+           vertical_.leftCols<2>() * vertical_.leftCols<2>().transpose() + random_;
   }
 
  private:
-  Eigen::Matrix<double, 3, kTerms, Eigen::RowMajor> terms_ = Eigen::Matrix<double, 3, kTerms, Eigen::RowMajor>::Zero();
-  Eigen::Vector3d azimuth_ = Eigen::Vector3d::Zero();
+  using Carried = Eigen::Matrix<double, 3, kCarried, Eigen::RowMajor>;
+  Carried carried_ = Carried::Zero();
+  Eigen::Vector3d azimuth_ = Eigen::Vector3d::Zero(), sag_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d depth_ = Eigen::Vector3d::Zero(), depth_scale_ = Eigen::Vector3d::Zero();
   Matrix3 vertical_ = Matrix3::Zero(), random_ = Matrix3::Zero();
 };
 
 }  // namespace
 
-TermCovariance stated_covariance(const ToolErrors& tool) noexcept {
-  TermCovariance out{};
+CarriedCovariance carried_covariance(const ToolErrors& tool) noexcept {
+  Estimate exact;
   for (std::size_t k = 0; k < kTermCount; ++k) {
     const double sigma = sigma_of(static_cast<Term>(k), tool);
-    out[kTermCount * k + k] = sigma * sigma;
+    exact.covariance[(kTermCount + 1) * k] = sigma * sigma;
   }
+  return carried_covariance(exact);
+}
+
+CarriedCovariance carried_covariance(const Estimate& estimate) noexcept {
+  CarriedCovariance out{};
+  Eigen::Map<Eigen::Matrix<double, kCarried, kCarried, Eigen::RowMajor>>(out.data())
+      .bottomRightCorner<kTerms, kTerms>() = matrix_of<kTerms, kTerms>(estimate.covariance);
   return out;
 }
 
-PathStationErrors path_errors(const SurveyStation& judged, North north) {
+CarriedWeights carried_weights(const Measurement& station) noexcept {
+  const std::array<double, 72> of_terms = term_weights(station);
+  CarriedWeights out{};
+  Eigen::Map<Eigen::Matrix<double, 6, kCarried, Eigen::RowMajor>>(out.data()).rightCols<kTerms>() =
+      matrix_of<6, kTerms>(of_terms);
+  return out;
+}
+
+PathStationErrors path_errors(const SurveyStation& judged, North north, const CarriedWeights& weights) {
   PathStationErrors out;
   const Measurement& m = judged.measured;
   const OrUndefined<Angle> azimuth = azimuth_from(judged, north);
@@ -89,9 +118,8 @@ PathStationErrors path_errors(const SurveyStation& judged, North north) {
   Eigen::Matrix<double, 2, 6, Eigen::RowMajor> angles;
   angles.row(0) = matrix_of<4, 6>(all).row(0);
   angles.row(1) = matrix_of<4, 6>(all).row(3);
-  const std::array<double, 72> weights = term_weights(m);
-  Eigen::Map<Eigen::Matrix<double, 2, kTerms, Eigen::RowMajor>>(out.per_term.data()) =
-      angles * matrix_of<6, kTerms>(weights);
+  Eigen::Map<Eigen::Matrix<double, 2, kCarried, Eigen::RowMajor>>(out.carried.data()) =
+      angles * matrix_of<6, kCarried>(weights);
   Eigen::Matrix<double, 2, 2, Eigen::RowMajor> random = angles * matrix_of<6, 6>(m.random) * angles.transpose();
   if (north != North::magnetic) {
     const double anew = judged.reference.field.declination_rad_sigma.random;
@@ -116,11 +144,12 @@ StepDerivatives step_derivatives(const Vec3& first, const Vec3& second, double l
   StepDerivatives out;
   Eigen::Map<Matrix3>(out.by_first.data()) = 0.5 * length_m * (f * Matrix3::Identity() - q * sum * b.transpose());
   Eigen::Map<Matrix3>(out.by_second.data()) = 0.5 * length_m * (f * Matrix3::Identity() - q * sum * a.transpose());
+  Eigen::Map<Eigen::Vector3d>(out.by_length.data()) = 0.5 * f * sum;
   return out;
 }
 
 std::vector<PositionCovariance> position_covariances(const std::vector<PathStationErrors>& stations,
-                                                     const TermCovariance& terms, double declination_sigma_rad) {
+                                                     const CommonErrors& common) {
   std::vector<PositionCovariance> out;
   Sums done;  // all but what the last station's own tangent does
   Matrix3 last = Matrix3::Zero();
@@ -130,14 +159,18 @@ std::vector<PositionCovariance> position_covariances(const std::vector<PathStati
       const StepDerivatives step =
           step_derivatives(vec3_of(tangent_of(before.station)), vec3_of(tangent_of(stations[k].station)),
                            stations[k].station.md_m - before.station.md_m);
-      done.add_systematic(last + matrix_of<3, 3>(step.by_first), before);
+      done.add_common(last + matrix_of<3, 3>(step.by_first), before);
       done.add_random(last + matrix_of<3, 3>(step.by_first), before);
       last = matrix_of<3, 3>(step.by_second);
+      const double here_m = stations[k].station.md_m, before_m = before.station.md_m;
+      const bool first = k == 1;  // the depth before is exact
+      done.add_length(Eigen::Map<const Eigen::Vector3d>(step.by_length.data()), first ? 1.0 : 0.0,
+                      first ? here_m : here_m - before_m);
     }
     Sums here = done;
-    here.add_systematic(last, stations[k]);
+    here.add_common(last, stations[k]);
     here.add_random(last, stations[k]);
-    const Matrix3 covariance = here.covariance(terms, declination_sigma_rad);
+    const Matrix3 covariance = here.covariance(common);
     out.emplace_back();
     std::copy_n(covariance.data(), 9, out.back().begin());
   }

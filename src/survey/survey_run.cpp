@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sound_stations.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace survey {
@@ -30,6 +32,62 @@ SurveyStation judged(const ReferencedStation& at, const Survey& found, const Sta
   if (found.axial && *found.axial)
     return judge_corrected(corrected(at.measured, **found.axial), at.reference, settings);
   return judge_station(at.measured, at.reference, settings);
+}
+
+/// Stations that an estimate judges are looked for without the test of misfit, which they would not pass.
+void estimate_alignment(const std::vector<ReferencedStation>& stations, const SurveySettings& settings, Survey& out) {
+  AlignmentSettings alignment;
+  alignment.tool = settings.station.tool;
+  alignment.stated_rad = *settings.align_within_rad;
+  AlignmentSettings untested = alignment;
+  untested.misfit_false_alarm = 0.0;
+  SoundStations sound = sound_stations(
+      stations, settings.station, [&](const auto& some) { return align_magnetometers(some, untested); },
+      [&](const ReferencedStation& s, const JointAlignment& found) {
+        return judge_corrected(aligned(s.measured, found), s.reference, settings.station);
+      });
+  out.alignment = align_magnetometers(sound.stations, alignment);
+  if (*out.alignment) {
+    int& worst = (*out.alignment)->held_out.worst;
+    if (worst >= 0) worst = static_cast<int>(sound.number[static_cast<std::size_t>(worst)]);
+  }
+  out.left_out = std::move(sound.left_out);
+}
+
+void estimate_axial(const std::vector<ReferencedStation>& stations, const SurveySettings& settings, Survey& out) {
+  MultiStationSettings axial;
+  axial.terms = {Term::magnetometer_bias_z};
+  axial.tool = settings.station.tool;
+  MultiStationSettings untested = axial;
+  untested.misfit_false_alarm = 0.0;
+  SoundStations sound = sound_stations(
+      stations, settings.station, [&](const auto& some) { return estimate_terms(some, untested); },
+      [&](const ReferencedStation& s, const Estimate& found) {
+        return judge_corrected(corrected(s.measured, found), s.reference, settings.station);
+      });
+  out.axial = estimate_terms(sound.stations, axial);
+  out.left_out = std::move(sound.left_out);
+}
+
+/// What the components of the station, as it was judged, change with what the tool carries.
+CarriedWeights weights_of(const ReferencedStation& at, const SurveyStation& judged, const Survey& found) {
+  if (found.alignment && *found.alignment) return alignment_weights(at.measured, **found.alignment);
+  return carried_weights(judged.measured);
+}
+
+CommonErrors common_errors(const Survey& found, const ReferencedStation& first, const SurveySettings& settings) {
+  CommonErrors out;
+  if (found.alignment && *found.alignment)
+    out.carried = (*found.alignment)->covariance;
+  else if (found.axial && *found.axial)
+    out.carried = carried_covariance(**found.axial);
+  else
+    out.carried = carried_covariance(settings.station.tool);
+  if (found.north != North::magnetic) out.declination_sigma_rad = first.reference.field.declination_rad_sigma.common;
+  out.sag_sigma_rad = settings.path.sag_rad;
+  out.depth_sigma_m = settings.path.depth_m;
+  out.depth_scale_sigma = settings.path.depth_scale;
+  return out;
 }
 
 }  // namespace
@@ -68,6 +126,8 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
              {},
              {},
              {},
+             {},
+             {},
              {}};
   ErrorTestSettings tests;
   tests.tool = settings.station.tool;
@@ -76,14 +136,11 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
     out.tests = *std::move(found);
   else
     out.tests_refused = found.error().text();
-  if (settings.align_within_rad) {
-    AlignmentSettings alignment;
-    alignment.tool = settings.station.tool;
-    alignment.stated_rad = *settings.align_within_rad;
-    out.alignment = align_magnetometers(stations, alignment);
-  } else if (settings.correct_axial) {
-    out.axial = estimate_axial_interference(stations, settings.station.tool);
-  }
+  if (settings.align_within_rad)
+    estimate_alignment(stations, settings, out);
+  else if (settings.correct_axial)
+    estimate_axial(stations, settings, out);
+  out.path_sigmas = settings.path;
   std::vector<PathStation> path;
   std::vector<PathStationErrors> errors;
   std::vector<Measurement> measured;
@@ -93,7 +150,7 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
     out.stations.push_back(judged(at, out, settings.station));
     if (const std::optional<PathStation> on = path_station(out.stations.back(), out.north)) {
       path.push_back(*on);
-      errors.push_back(path_errors(out.stations.back(), out.north));
+      errors.push_back(path_errors(out.stations.back(), out.north, weights_of(at, out.stations.back(), out)));
       out.on_path.push_back(k);
     }
   }
@@ -103,13 +160,7 @@ Survey run_survey(const std::vector<ReferencedStation>& stations, const SurveySe
     out.on_path.clear();
     return out;
   }
-  // The errors of an alignment turn with the tool, and are not terms of the path: no figure is better than half of one.
-  if (out.alignment && *out.alignment) return out;
-  const double declination =
-      out.north == North::magnetic ? 0.0 : stations.front().reference.field.declination_rad_sigma.common;
-  out.position_covariance = position_covariances(
-      errors, out.axial && *out.axial ? (*out.axial)->covariance : stated_covariance(settings.station.tool),
-      declination);
+  out.position_covariance = position_covariances(errors, common_errors(out, stations.front(), settings));
   return out;
 }
 

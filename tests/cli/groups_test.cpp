@@ -136,6 +136,61 @@ Outcome watched(Fault fault, const std::vector<std::string>& more = {}) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+/// Without the stated bound of the alignment.
+std::string unstated_tool() {
+  std::string out = read_text(desk() / "tool.toml");
+  const std::string line = "alignment_bound = \"0.3 deg\"\n";
+  const std::size_t of_group = out.rfind(line);
+  return out.erase(of_group, line.size());
+}
+
+// Verifies: REQ-249
+TEST(GroupsCommand, MagnetometersAreAlignedByTheCalibrationOfTheAccelerometers) {
+  write_text(desk() / "open.toml", unstated_tool());
+  const Outcome outcome = run(desk(), {"calibrate", "--array", "open.toml#mag", "--log", "stand.csv", "--align-by",
+                                       "acc.json", "--out", "aligned.json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, " stations: axes turned by ")) << outcome.out;
+  const nlohmann::json file = nlohmann::json::parse(read_text(desk() / "aligned.json"));
+  EXPECT_GE(file["frame_alignment"]["stations"].get<int>(), 15);
+  EXPECT_NEAR(file["frame_alignment"]["base_bound_rad"].get<double>(), 0.3 / 57.2957795, 1e-5);
+  const Outcome watched = run(desk(), {"monitor", "--array", "open.toml", "--calibration", "acc.json", "--log",
+                                       "stand.csv", "--group", "mag=aligned.json", "--report", "watched.html"});
+  EXPECT_EQ(watched.code, 0) << watched.err;
+  EXPECT_TRUE(has(read_text(desk() / "watched-mag.json"), "\"source\":\"dip\"") ||
+              has(read_text(desk() / "watched-mag.json"), "\"source\": \"dip\""));
+}
+
+// Negative: REQ-249
+TEST(GroupsCommand, WhatDoesNotAlignAGroupIsRefusedWithWhatDoes) {
+  const auto calibrate = [](std::vector<std::string> more) {
+    std::vector<std::string> all = {"calibrate", "--log", "stand.csv", "--out", "none.json"};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(desk(), all);
+  };
+  const Outcome known = calibrate({"--array", "tool.toml#mag", "--known-attitude", "1:45,30"});
+  EXPECT_EQ(known.code, 2);
+  EXPECT_TRUE(has(known.err, "takes an azimuth as well")) << known.err;
+  EXPECT_TRUE(has(known.err, "--align-by ACC.json")) << known.err;
+  const Outcome gravity = calibrate({"--array", "tool.toml", "--align-by", "acc.json"});
+  EXPECT_EQ(gravity.code, 2);
+  EXPECT_TRUE(has(gravity.err, "is no magnetic group")) << gravity.err;
+  const Outcome other = calibrate({"--array", "tool.toml#mag", "--align-by", "mag.json"});
+  EXPECT_NE(other.code, 0);
+  EXPECT_TRUE(has(other.err, "belongs to another array")) << other.err;
+  // A dip that is not that of the place looks like magnetometers turned by more than their datasheet says.
+  std::string wrong = read_text(desk() / "tool.toml");
+  const std::string place =
+      "model = \"wmm\"\nlatitude = \"60.4 deg\"\nlongitude = \"2.1 deg\"\ndate = \"2026-03-31\"\n";
+  const std::size_t from = wrong.find(place);
+  ASSERT_NE(from, std::string::npos);
+  wrong.replace(from, place.size(), "value = \"51.375 uT\"\ndip = \"60 deg\"\n");
+  write_text(desk() / "wrong.toml", wrong);
+  const Outcome refused = calibrate({"--array", "wrong.toml#mag", "--align-by", "acc.json"});
+  EXPECT_EQ(refused.code, 4) << refused.out << refused.err;
+  EXPECT_TRUE(has(refused.err, "the magnetometers could not be aligned")) << refused.err;
+}
+
 TEST(GroupsCommand, MagnetometersAreCalibratedInTheirOwnUnits) {
   const Outcome outcome =
       run(desk(), {"calibrate", "--array", "tool.toml#mag", "--log", "stand.csv", "--out", "again.json"});

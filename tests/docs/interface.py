@@ -225,7 +225,7 @@ def names_of(root, tool):
     out["reasons of a station"] = words_of(text("src/verification/tool_health_words.cpp"), "StationReason")
     out["concerns of a calibration"] = words_of(text("src/calibration/acceptance.cpp"), "Concern")
     out["findings"] = re.findall(r'\{FindingCode::\w+, "(\w+)"\}', text("include/plumb/findings/finding.hpp"))
-    out["C"] = list(dict.fromkeys(name for header in ("plumb", "plumb_motion", "plumb_rates")
+    out["C"] = list(dict.fromkeys(name for header in ("plumb", "plumb_dip", "plumb_motion", "plumb_rates")
                                   for name in c_names(text(f"include/plumb/c/{header}.h"))))
     out["Python"] = list(dict.fromkeys(python_names(root)))
     return out

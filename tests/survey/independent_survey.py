@@ -1,5 +1,6 @@
 """The survey once more, by other means: attitudes from a triad of directions, derivatives by complex steps, all unknowns of the
-multi-station estimate and of the alignment in one dense system without scaling, the rotation by Cayley's map, covariances of error tests by a dense inverse, the path by vectors.
+multi-station estimate and of the alignment in one dense system without scaling, the rotation by Cayley's map, covariances of error tests by a dense inverse, the path by vectors, the covariance of its
+positions by complex steps of the whole path.
 Prints readings and results, one record a line; tests/survey/independent_test.cpp compares. Standard library only."""
 import cmath
 import math
@@ -232,7 +233,7 @@ def alignment(stations, dip_known):
     rotation = [[float(i == k) for i in range(3)] for k in range(3)]
     for t in turns:
         rotation = [turned(column, t) for column in rotation]
-    return rotation, x, covariance, chi
+    return rotation, turns, x, covariance, chi
 
 
 def error_test(stations, kind):
@@ -272,6 +273,59 @@ def path(stations):
     return out
 
 
+COMMON = (math.radians(0.4), math.radians(0.1), 0.35, 5e-4)  # declination, sag, depth, depth in proportion
+
+
+def path_of_aligned(stations, turns, x, unknowns, common, noise):
+    """North, east, depth of every station, complex: terms and rotation changed by `unknowns`, common errors by `common`, and a
+    component of one station by `noise` (station, component, step)."""
+    at, out, before = (0.0, 0.0, 0.0), [], None
+    for k, v in enumerate(stations):
+        c = corrected([complex(r) for r in v], [a + u for a, u in zip(x, unknowns[3:])])
+        field = c[3:]
+        for t in turns:
+            field = turned(field, t)
+        v = list(c[:3] + turned(field, unknowns[:3]))
+        if noise[0] == k:
+            v[noise[1]] += noise[2]
+        down = unit(v[:3])
+        east = unit(cross(down, v[3:]))
+        north = cross(east, down)
+        sine = cmath.sqrt(north[2] ** 2 + east[2] ** 2)
+        grown = 1.0 + common[1] * down[2]
+        n, e = north[2] * grown, east[2] * grown
+        t = (n - common[0] * e, e + common[0] * n, down[2] - common[1] * sine ** 2)
+        if before is not None:
+            depths = [30.0 * i + (common[2] + 30.0 * i * common[3] if i > 0 else 0.0) for i in (k - 1, k)]
+            normal = cross(before, t)
+            bent = cmath.sqrt(dot(normal, normal))
+            bend = cmath.atan(bent / dot(before, t))
+            inward = tuple(i / bent for i in cross(normal, before))
+            radius = (depths[1] - depths[0]) / bend
+            at = tuple(a + radius * (bent * b + (1.0 - dot(before, t)) * i) for a, b, i in zip(at, before, inward))
+        out.append(at)
+        before = t
+    return out
+
+
+def position_covariance(stations, turns, x, covariance):
+    """Row-major 3 x 3 of each station."""
+    def slopes(unknown=-1, common=-1, noise=(-1, 0)):
+        step = complex(0.0, STEP)
+        found = path_of_aligned(stations, turns, x, [step if k == unknown else 0.0 for k in range(15)],
+                                [step if k == common else 0.0 for k in range(4)], (*noise, step))
+        return [[complex(c).imag / STEP for c in point] for point in found]
+    n = len(stations)
+    carried = [slopes(unknown=k) for k in range(15)]
+    alone = [(slopes(common=k), s ** 2) for k, s in enumerate(COMMON)]
+    alone += [(slopes(noise=(k, c)), VARIANCE[c]) for k in range(n) for c in range(6)]
+    out = []
+    for k in range(n):
+        out.append([sum(carried[a][k][i] * covariance[a][b] * carried[b][k][j] for a in range(15) for b in range(15))
+                    + sum(s[k][i] * variance * s[k][j] for s, variance in alone) for i in range(3) for j in range(3)])
+    return out
+
+
 def show(name, *numbers):
     print(name, *(repr(float(x)) for x in numbers))
 
@@ -295,11 +349,13 @@ def main():
     for v in apart:
         show("apart", *v)
     for dip_known in (True, False):
-        rotation, x, covariance, chi = alignment(apart, dip_known)
+        rotation, turns, x, covariance, chi = alignment(apart, dip_known)
         show("rotation", *(rotation[k][i] for i in range(3) for k in range(3)))
         show("aligned", *x, chi)
         show("alignment", *(covariance[i][j] for i in range(15) for j in range(15)))
         show("dip", covariance[17][17])
+        for row in position_covariance(apart, turns, x, covariance):
+            show("position" if dip_known else "position_unknown_dip", *row)
     for kind in range(3):
         show("test", *error_test(stations, kind))
     for point in path(stations):

@@ -14,6 +14,7 @@
 #include "plumb/survey/joint_alignment.hpp"
 #include "plumb/survey/multi_station.hpp"
 #include "plumb/survey/path.hpp"
+#include "plumb/survey/position_covariance.hpp"
 
 namespace independent_test {
 namespace {
@@ -157,6 +158,36 @@ TEST_F(IndependentSurvey, AgreesOnTheAlignment) {
     expect_alike(found->dip_offset_rad, x[14], rad_from_deg(0.2));
     expect_alike(found->dip_sigma_rad, std::sqrt(of("dip")[unknown_dip][0]), found->dip_sigma_rad);
     expect_alike(found->chi_square, x[15], x[15]);
+  }
+}
+
+// Verifies: REQ-250, REQ-251
+TEST_F(IndependentSurvey, AgreesOnThePositionsOfAnAlignedTool) {
+  std::vector<ReferencedStation> apart;
+  for (std::size_t k = 0; k < stations_.size(); ++k) apart.push_back(station_of(of("apart")[k], k));
+  AlignmentSettings settings;
+  settings.misfit_false_alarm = 0.0;
+  settings.stated_rad = rad_from_deg(2.0);
+  StationSettings all_pass;
+  all_pass.checks.limits = LimitKind::fixed;
+  all_pass.checks.fixed = {1.0, 1.0, 1.0};
+  for (const bool dip_known : {true, false}) {
+    settings.dip_known = dip_known;
+    const auto found = align_magnetometers(apart, settings);
+    ASSERT_TRUE(found.has_value()) << found.error().text();
+    std::vector<PathStationErrors> errors;
+    for (const ReferencedStation& s : apart)
+      errors.push_back(path_errors(judge_corrected(aligned(s.measured, *found), s.reference, all_pass), North::magnetic,
+                                   alignment_weights(s.measured, *found)));
+    const std::vector<PositionCovariance> positions =
+        position_covariances(errors, {found->covariance, rad_from_deg(0.4), rad_from_deg(0.1), 0.35, 5e-4});
+    for (std::size_t k = 1; k < positions.size(); ++k) {
+      const std::vector<double>& other = of(dip_known ? "position" : "position_unknown_dip")[k];
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+          expect_alike(positions[k][3 * i + j], other[3 * i + j], std::sqrt(other[4 * i] * other[4 * j]));
+      }
+    }
   }
 }
 

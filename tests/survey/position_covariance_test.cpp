@@ -78,7 +78,7 @@ std::vector<PathStationErrors> straight(int stations, double random_rad) {
 
 // Negative: REQ-239
 TEST(PositionCovariance, OfACommonErrorGrowsWithTheLength) {
-  const std::vector<PositionCovariance> found = position_covariances(straight(11, 0.0), {}, 0.01);
+  const std::vector<PositionCovariance> found = position_covariances(straight(11, 0.0), {{}, 0.01, 0.0, 0.0, 0.0});
   EXPECT_EQ(found[0], PositionCovariance{});
   EXPECT_NEAR(std::sqrt(found[5][4]), 1.5, 1e-12);
   EXPECT_NEAR(std::sqrt(found[10][4]), 3.0, 1e-12);
@@ -88,7 +88,7 @@ TEST(PositionCovariance, OfACommonErrorGrowsWithTheLength) {
 
 TEST(PositionCovariance, OfRandomErrorsGrowsWithItsRoot) {
   // Ten segments of 30 m: the first and the last station count half.
-  const std::vector<PositionCovariance> found = position_covariances(straight(11, 0.01), {}, 0.0);
+  const std::vector<PositionCovariance> found = position_covariances(straight(11, 0.01), {});
   EXPECT_NEAR(std::sqrt(found[10][4]), 0.3 * std::sqrt(9.0 + 0.25 + 0.25), 1e-12);
 }
 
@@ -98,7 +98,7 @@ TEST(PositionCovariance, OfVerticalStationsIsTheirTilt) {
     stations[k].station = {100.0 * static_cast<double>(k), 0.0, false, 0.0};
     stations[k].tilt_sigma_rad = 0.002;
   }
-  const std::vector<PositionCovariance> found = position_covariances(stations, {}, 0.0);
+  const std::vector<PositionCovariance> found = position_covariances(stations, {});
   // Less than 200 m of it: minimum curvature of neighbours in line.
   EXPECT_NEAR(std::sqrt(found[2][0]), 0.4, 1e-12);
   EXPECT_NEAR(std::sqrt(found[2][4]), 0.4, 1e-12);

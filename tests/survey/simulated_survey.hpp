@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "plumb/core/units.hpp"
-#include "plumb/survey/checks.hpp"
+#include "plumb/survey/terms.hpp"
 
 namespace simulated_survey {
 
@@ -41,6 +42,19 @@ inline plumb::survey::Reference reference_of(const World& w) {
   out.field.declination_known = true;
   out.field.declination_rad = plumb::rad_from_deg(-4.0);
   out.field.declination_rad_sigma = {plumb::rad_from_deg(0.4), 0.0};
+  return out;
+}
+
+/// Down, then round to the horizontal on 60 degrees.
+inline std::vector<plumb::survey::ReferencedStation> bent_hole(int stations = 20) {
+  std::vector<plumb::survey::ReferencedStation> out;
+  for (int k = 0; k < stations; ++k) {
+    const double inclination_deg = k < 3 ? 0.0 : 85.0 * (k - 2) / (stations - 3);
+    plumb::survey::Measurement m = station_of(
+        {plumb::rad_from_deg(inclination_deg), plumb::rad_from_deg(60.0), 1.7 * k}, World{}, 1000.0 + 30.0 * k);
+    m.random = plumb::survey::independent_covariance(1e-3, 20e-9);
+    out.push_back({m, reference_of(World{})});
+  }
   return out;
 }
 

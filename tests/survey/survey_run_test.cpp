@@ -24,22 +24,9 @@ using namespace plumb;
 using namespace plumb::survey;
 using namespace simulated_survey;
 
-/// Down, then round to the horizontal on 60 degrees.
-std::vector<ReferencedStation> hole(int stations = 20) {
-  std::vector<ReferencedStation> out;
-  for (int k = 0; k < stations; ++k) {
-    const double inclination_deg = k < 3 ? 0.0 : 85.0 * (k - 2) / (stations - 3);
-    Measurement m =
-        station_of({rad_from_deg(inclination_deg), rad_from_deg(60.0), 1.7 * k}, World{}, 1000.0 + 30.0 * k);
-    m.random = independent_covariance(1e-3, 20e-9);
-    out.push_back({m, reference_of(World{})});
-  }
-  return out;
-}
-
 TEST(Survey, LaysOutItsPathFromTheNorthThatIsNamed) {
   SurveySettings settings;
-  const Survey s = run_survey(hole(), settings);
+  const Survey s = run_survey(bent_hole(), settings);
   EXPECT_EQ(s.north, North::true_north);
   ASSERT_TRUE(s.path.has_value()) << s.path.error().text();
   EXPECT_EQ(s.on_path.size(), 20U);
@@ -47,17 +34,17 @@ TEST(Survey, LaysOutItsPathFromTheNorthThatIsNamed) {
   EXPECT_NEAR(deg_from_rad(std::atan2(end.east_m, end.north_m)), 56.0, 0.01);
   EXPECT_TRUE(s.tests && s.tests->gravity.passed() && s.tests->field.passed() && s.tests->dip.passed());
   settings.station.convergence = {true, rad_from_deg(2.0)};
-  const Survey grid = run_survey(hole(), settings);
+  const Survey grid = run_survey(bent_hole(), settings);
   EXPECT_EQ(grid.north, North::grid);
   EXPECT_NEAR(deg_from_rad(std::atan2(grid.path->back().east_m, grid.path->back().north_m)), 54.0, 0.01);
   settings.north = North::magnetic;
-  EXPECT_NEAR(deg_from_rad(std::atan2(run_survey(hole(), settings).path->back().east_m,
-                                      run_survey(hole(), settings).path->back().north_m)),
+  EXPECT_NEAR(deg_from_rad(std::atan2(run_survey(bent_hole(), settings).path->back().east_m,
+                                      run_survey(bent_hole(), settings).path->back().north_m)),
               60.0, 0.01);
 }
 
 TEST(Survey, WithoutADeclinationIsMagnetic) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   for (ReferencedStation& s : stations) s.reference.field.declination_known = false;
   const Survey s = run_survey(stations, {});
   EXPECT_EQ(s.north, North::magnetic);
@@ -66,7 +53,7 @@ TEST(Survey, WithoutADeclinationIsMagnetic) {
 }
 
 TEST(Survey, LeavesStationsThatFailedOffThePath) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   stations[9].measured.field_tesla[0] += 9e-6;
   stations[12].measured.gravity_mps2 = scaled(stations[12].measured.gravity_mps2, 1.01);
   const Survey s = run_survey(stations, {});
@@ -79,7 +66,7 @@ TEST(Survey, LeavesStationsThatFailedOffThePath) {
 }
 
 TEST(Survey, TakesInterferenceOffWhereAskedTo) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   for (ReferencedStation& s : stations) s.measured.field_tesla[2] += 500e-9;
   SurveySettings settings;
   const Survey before = run_survey(stations, settings);
@@ -94,7 +81,7 @@ TEST(Survey, TakesInterferenceOffWhereAskedTo) {
 }
 
 TEST(Survey, AlignsMagnetometersWhereAskedTo) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   const double turn = rad_from_deg(0.6), c = std::cos(turn), s = std::sin(turn);
   for (ReferencedStation& one : stations) {
     Vec3& b = one.measured.field_tesla;
@@ -154,7 +141,7 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 TEST(SurveyCsv, HasTheColumnsOfTheTrade) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   stations[9].measured.field_tesla[0] += 9e-6;
   std::istringstream lines(survey_csv(run_survey(stations, {})));
   std::vector<std::vector<std::string>> rows;
@@ -182,7 +169,7 @@ TEST(SurveyCsv, HasTheColumnsOfTheTrade) {
 }
 
 TEST(SurveyCsv, WritesNorthAsZero) {
-  std::vector<ReferencedStation> stations{hole()[19]};
+  std::vector<ReferencedStation> stations{bent_hole()[19]};
   stations[0].reference.field.declination_rad = rad_from_deg(-60.001);
   EXPECT_NE(survey_csv(run_survey(stations, {})).find(",60.00,0.00,"), std::string::npos);
 }
@@ -193,7 +180,7 @@ TEST(SurveyWiring, TellsExchangedAxesOfOneTriad) {
   const std::pair<std::size_t, std::size_t> swaps[] = {{0, 1}, {0, 2}, {1, 2}};
   for (std::size_t k = 0; k < 3; ++k) {
     for (const bool of_gravity : {false, true}) {
-      std::vector<ReferencedStation> stations = hole();
+      std::vector<ReferencedStation> stations = bent_hole();
       for (ReferencedStation& s : stations) {
         Vec3& v = of_gravity ? s.measured.gravity_mps2 : s.measured.field_tesla;
         std::swap(v[swaps[k].first], v[swaps[k].second]);
@@ -207,28 +194,28 @@ TEST(SurveyWiring, TellsExchangedAxesOfOneTriad) {
 }
 
 TEST(SurveyWiring, TellsATurnedSign) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   for (ReferencedStation& s : stations) s.measured.field_tesla[1] *= -1.0;
   EXPECT_NE(study_wiring(stations, iscwsa_tool()).text().find("x = x, y = -y, z = z"), std::string::npos);
 }
 
 // Negative: REQ-235
 TEST(SurveyWiring, SaysNothingOfAGoodSurveyNorOfOneThatCannotTell) {
-  EXPECT_FALSE(study_wiring(hole(), iscwsa_tool()).swapped);
-  EXPECT_EQ(study_wiring(hole(), iscwsa_tool()).text(), "");
+  EXPECT_FALSE(study_wiring(bent_hole(), iscwsa_tool()).swapped);
+  EXPECT_EQ(study_wiring(bent_hole(), iscwsa_tool()).text(), "");
   EXPECT_FALSE(study_wiring({}, iscwsa_tool()).swapped);
-  std::vector<ReferencedStation> few = hole(4), vertical;
+  std::vector<ReferencedStation> few = bent_hole(4), vertical;
   for (ReferencedStation& s : few) std::swap(s.measured.field_tesla[0], s.measured.field_tesla[1]);
   few.pop_back();
   EXPECT_FALSE(study_wiring(few, iscwsa_tool()).swapped);
-  std::vector<ReferencedStation> off = hole();  // another field altogether
+  std::vector<ReferencedStation> off = bent_hole();  // another field altogether
   for (ReferencedStation& s : off) s.measured.field_tesla = {30e-6, 1e-6, 5e-6};
   EXPECT_FALSE(study_wiring(off, iscwsa_tool()).swapped);
 }
 
 // Verifies: REQ-237
 TEST(SurveySaturation, TellsAChannelAtTheEndOfItsRange) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   for (ReferencedStation& s : stations) s.measured.field_tesla[2] = std::fmin(s.measured.field_tesla[2], 40e-6);
   const Survey s = run_survey(stations, {});
   ASSERT_EQ(s.saturated.size(), 1U);
@@ -238,7 +225,7 @@ TEST(SurveySaturation, TellsAChannelAtTheEndOfItsRange) {
 }
 
 TEST(SurveySaturation, TellsAChannelThatIsStuck) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   for (ReferencedStation& s : stations) s.measured.gravity_mps2[0] = -3.25;
   const Survey s = run_survey(stations, {});
   for (const SurveyStation& one : s.stations) EXPECT_EQ(one.status, StationStatus::rejected);
@@ -248,7 +235,7 @@ TEST(SurveySaturation, TellsAChannelThatIsStuck) {
 
 // Negative: REQ-237
 TEST(SurveySaturation, AccusesNoReadingThatIsEqualByRoundingOrOfAGoodStation) {
-  std::vector<ReferencedStation> stations = hole();
+  std::vector<ReferencedStation> stations = bent_hole();
   for (ReferencedStation& s : stations) s.measured.field_tesla[2] = 1e-7 * std::round(s.measured.field_tesla[2] / 1e-7);
   EXPECT_TRUE(run_survey(stations, {}).saturated.empty());  // three vertical ones read the same
   stations[4].measured.field_tesla = scaled(stations[4].measured.field_tesla, 1.5);

@@ -14,7 +14,7 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace findings {
 
-enum class AlignmentSource : std::uint8_t { stated, datasheet, roll_groups, known_attitudes };
+enum class AlignmentSource : std::uint8_t { stated, datasheet, roll_groups, known_attitudes, dip };
 const char* to_string(AlignmentSource source) noexcept;
 
 /// A bound on the angle of the turn, about any axis.
@@ -28,7 +28,8 @@ struct Alignment {
 /// there. `calibration` null: the axes in use are the datasheet's.
 Alignment alignment_of(const io::ArrayFile& array, const Calibration* calibration,
                        const std::vector<MeasuredAttitude>& measured);
-/// The same of a calibration file, or of none.
+/// The same of a calibration file, or of none. Of magnetometers that were aligned by the dip: what that leaves, to all
+/// but the integrity risk, on top of what the accelerometers' own frame leaves.
 Alignment alignment_of(const io::ArrayFile& array, const io::CalibrationFile* file);
 
 /// The array as a monitor is set up from it: that bound is its `alignment_bound`.

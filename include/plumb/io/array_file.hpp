@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,14 @@ struct InputSpec {
 
 inline constexpr Mat3 kIdentity3 = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
 
+/// What a length was computed from, for whoever needs it elsewhere: a survey at the depth of each station.
+struct ReferenceBasis {
+  std::optional<NormalGravityInput> normal_gravity;  ///< of gravity by the model "normal"
+  std::optional<MagneticPlace> place;                ///< of a field by the model "wmm"
+  /// Which sigmas of a field the file states: else they are the usual ones, or the model's.
+  bool total_sigma_stated = false, dip_sigma_stated = false;
+};
+
 /// One group of sensors that measure one vector. The accelerometers of a file, with its other groups beside them, or
 /// one of those: then figures "in m/s^2" are in the group's inside unit (plumb/io/field.hpp).
 struct ArrayFile {
@@ -83,6 +92,7 @@ struct ArrayFile {
   Mat3 output_frame = kIdentity3;    ///< rows; applied to vectors at output only
   std::uint64_t fingerprint = 0;     ///< binds a calibration to this array, see fingerprint_of
   std::string text;                  ///< the file as read
+  ReferenceBasis basis;              ///< of `gravity`, or of `magnetic`
 };
 
 /// "tool.toml#NAME" is the [[group]] of that name. `lookup` answers where a magnetic group states a place and a date;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,17 @@ inline constexpr int kCalibrationVersion = 2;
 inline constexpr int kOldestCalibrationVersion = 1;
 /// Of the section `paper`, which a file need not have.
 inline constexpr int kPaperSectionVersion = 1;
+
+/// How the axes of a magnetic group were turned into the frame of the accelerometers: by the dip of its stations.
+struct FrameAlignment {
+  Vec3 turn_rad{};                          ///< rotation vector, from the axes as the fit had them
+  std::array<double, 9> covariance_rad2{};  ///< of a further small rotation about x, y, z of the tool, row-major
+  double base_bound_rad = 0.0;              ///< how far the frame of the accelerometers may be turned from the housing
+  int stations = 0;                         ///< that it rests on
+
+  /// Numbers that a bound can be made of.
+  bool plausible() const noexcept;
+};
 
 /// Where a calibration comes from. No clock time: the same input gives the same bytes, and the date is what the user
 /// says.
@@ -49,15 +61,17 @@ struct CalibrationFile {
   std::shared_ptr<const PaperCalibration> paper;    ///< null where the fits by the paper's method were not asked for
   std::shared_ptr<const MotionCalibration> motion;  ///< null where no log in motion was fitted
   std::string array_name;
-  std::string array_file;  ///< last part of the path
+  std::string array_file;                   ///< last part of the path
+  std::optional<FrameAlignment> alignment;  ///< of a magnetic group, where its axes were aligned
 };
 
-/// `paper`, where given, goes along.
+/// `paper` and `alignment`, where given, go along.
 std::string calibration_json(const Calibration& calibration, const ArrayFile& array, const CalibrationContext& context,
-                             const PaperCalibration* paper = nullptr);
+                             const PaperCalibration* paper = nullptr, const FrameAlignment* alignment = nullptr);
 
 FileExpected<void> write_calibration(const std::string& path, const Calibration& calibration, const ArrayFile& array,
-                                     const CalibrationContext& context, const PaperCalibration* paper = nullptr);
+                                     const CalibrationContext& context, const PaperCalibration* paper = nullptr,
+                                     const FrameAlignment* alignment = nullptr);
 
 /// The calibration file `from`, byte for byte but for its checksum, and what a log in motion showed, into `to`, which
 /// may be the same.

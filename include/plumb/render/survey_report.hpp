@@ -14,6 +14,7 @@ struct SurveyReport {
   std::string file;
   std::string gravity_unit, field_unit;  ///< of the columns
   std::uint64_t rows_left_out = 0;
+  std::string array;  ///< that stated the references; empty: none
   survey::SurveySettings settings;
   survey::Reference first, last;  ///< references of the first and of the last station
   double noise_mps2 = 0.0, noise_tesla = 0.0;

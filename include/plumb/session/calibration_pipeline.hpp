@@ -38,10 +38,14 @@ io::FileExpected<CalibrationRun> run_calibration(const io::ArrayFile& array, con
 CalibrationRun run_calibration(const io::ArrayFile& array, const std::vector<Sample>& samples,
                                const CalibrationChoice& choice = {});
 
+/// The stations of a log alone, as a calibration of that array finds them.
+io::FileExpected<std::vector<Station>> find_stations(const io::ArrayFile& array, const LogSpec& log);
+
 /// What only the user can tell of a calibration; empty where not given.
 struct CalibrationTag {
-  std::string date;    ///< "2026-03-31"
-  std::string serial;  ///< of the tool
+  std::string date;                             ///< "2026-03-31"
+  std::string serial;                           ///< of the tool
+  std::optional<io::FrameAlignment> alignment;  ///< of a magnetic group, where its axes were aligned
 };
 
 /// What is said of a known attitude whose station the calibration does not show.

@@ -100,6 +100,11 @@ tl::expected<JointAlignment, AlignmentRefusal> align_magnetometers(const std::ve
 /// left: random, and that of the alignment. For `judge_corrected`.
 CorrectedStation aligned(const Measurement& station, const JointAlignment& alignment);
 
+/// What the six components of the station so aligned change with a further small rotation about x, y and z of the tool
+/// frame [rad] and with the terms, row-major 6 x 15.
+using CarriedWeights = std::array<double, 6 * kAlignmentUnknowns>;
+CarriedWeights alignment_weights(const Measurement& station, const JointAlignment& alignment);
+
 }  // namespace survey
 }  // namespace PLUMB_ABI
 }  // namespace plumb

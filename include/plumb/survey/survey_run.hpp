@@ -16,8 +16,19 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace survey {
 
+/// What is stated beside the tool's own errors, 1 sigma of each, for the covariance of positions. 0: not stated, and
+/// not allowed for.
+struct PathSigmas {
+  double sag_rad = 0.0;      ///< as in `CommonErrors`
+  double depth_m = 0.0;      ///< the same
+  double depth_scale = 0.0;  ///< the same, of 1
+
+  bool any() const noexcept { return sag_rad > 0.0 || depth_m > 0.0 || depth_scale > 0.0; }
+};
+
 struct SurveySettings {
   StationSettings station;
+  PathSigmas path;
   double integrity_risk = 1e-4;  ///< of the protection levels
   std::optional<North> north;    ///< of the path; none: grid where there is a convergence, else true, else magnetic
   bool correct_axial = false;    ///< estimate the axial interference, and take it off where it could be estimated
@@ -36,11 +47,15 @@ struct Survey {
   std::string tests_refused;
   std::optional<tl::expected<Estimate, EstimateRefusal>> axial;  ///< where asked for; `tests` are those of the readings
   std::optional<tl::expected<JointAlignment, AlignmentRefusal>> alignment;  ///< the same
+  /// Numbers of the stations that neither of the two used: their gravity failed as it was read, or another check did
+  /// when the estimate of the others was taken off.
+  std::vector<std::size_t> left_out;
   /// Positions of the stations that were accepted; the others are left out.
   io::FileExpected<std::vector<PathPoint>> path;
   std::vector<std::size_t> on_path;                     ///< number of the station of each position
-  std::vector<PositionCovariance> position_covariance;  ///< of each position; none with an alignment
+  std::vector<PositionCovariance> position_covariance;  ///< of each position
   std::vector<SaturatedChannel> saturated;
+  PathSigmas path_sigmas;  ///< that the covariance allows for
 };
 
 /// Stations in the order of their depth.
