@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "monitor_report.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/io/gyro_calibration.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/render/group_report.hpp"
 #include "plumb/session/group_track.hpp"
@@ -23,6 +25,7 @@ constexpr double kTogether = 1.0;
 struct Wanted {
   std::string name, calibration;
   const io::ArrayFile* array = nullptr;
+  std::optional<io::GyroCalibration> gyros{};  ///< of a rate that is calibrated
 };
 
 io::FileError wrong_group(std::string what, std::string remedy) {
@@ -35,7 +38,7 @@ std::string names_of(const io::ArrayFile& tool) {
   return out;
 }
 
-/// "mag=mag.json": a calibration where the group's field has a length, none where it is a rate.
+/// "mag=mag.json": a calibration, which a rate need not have.
 io::FileExpected<std::vector<Wanted>> groups_of(const MonitorOptions& options, const io::ArrayFile& tool) {
   std::vector<Wanted> out;
   for (const std::string& text : options.groups) {
@@ -47,16 +50,19 @@ io::FileExpected<std::vector<Wanted>> groups_of(const MonitorOptions& options, c
           options.array + " has no group \"" + one.name + "\"",
           tool.groups.empty() ? "add a [[group]] to the array file" : "name one of its groups: " + names_of(tool)));
     const bool rate = one.array->field == io::FieldKind::rate;
-    if (rate != one.calibration.empty())
+    if (!rate && one.calibration.empty())
       return tl::unexpected<io::FileError>(
-          rate ? wrong_group("\"" + one.name + "\" measures a rate, which no calibration file serves",
-                             "write --group " + one.name)
-               : wrong_group("\"" + one.name + "\" has no calibration",
-                             "write --group " + one.name + "=CAL.json, with what plumb calibrate --array " +
-                                 options.array + "#" + one.name + " wrote"));
+          wrong_group("\"" + one.name + "\" has no calibration", "write --group " + one.name +
+                                                                     "=CAL.json, with what plumb calibrate --array " +
+                                                                     options.array + "#" + one.name + " wrote"));
     for (const Wanted& before : out) {
       if (before.name == one.name)
         return tl::unexpected<io::FileError>(wrong_group("\"" + one.name + "\" is given twice", "give it once"));
+    }
+    if (rate && !one.calibration.empty()) {
+      io::FileExpected<io::GyroCalibration> gyros = io::read_gyro_calibration(one.calibration, *one.array);
+      if (!gyros) return tl::unexpected<io::FileError>(gyros.error());
+      one.gyros = *std::move(gyros);
     }
     if (!rate) {
       const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(one.calibration, *one.array);
@@ -150,7 +156,8 @@ io::FileExpected<void> write_events(const std::string& path, const session::Rate
 io::ExitCode monitor_rates(const MonitorOptions& options, const Wanted& group,
                            const std::vector<session::TrackPoint>& gravity) {
   session::RestTimes rest(gravity);
-  const io::FileExpected<session::RateRun> run = session::run_rates(*group.array, options.log, &rest);
+  const io::FileExpected<session::RateRun> run =
+      session::run_rates(*group.array, options.log, &rest, group.gyros ? &*group.gyros : nullptr);
   if (!run) return report(run.error());
   if (const io::FileExpected<void> kept =
           write_events(name_for_group(options.events, group.name), *run, group.array->array);

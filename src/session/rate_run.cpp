@@ -24,7 +24,7 @@ SensorSet clipped_of(const io::ArrayFile& array, const Sample& sample) {
 }
 
 /// What a run adds up from verdict to verdict.
-void take(const RateVerdict& now, double time_s, RateRun& run) {
+void take(const RateVerdict& now, double time_s, const RateGroup& group, RateRun& run) {
   RateEvent event{time_s, now.suspects, now.excluded, now.off_at_rest, now.turned_at_rest, now.cause};
   const RateVerdict& before = run.last;
   const bool changed = now.suspects != before.suspects || now.excluded != before.excluded ||
@@ -35,10 +35,11 @@ void take(const RateVerdict& now, double time_s, RateRun& run) {
   run.ever_off_at_rest = run.ever_off_at_rest | now.off_at_rest;
   if (now.block_ended) {
     ++run.blocks;
-    if (now.block.validity != ForceValidity::none && std::isfinite(now.block.bound_radps)) {
+    const double bound_radps = with_common_part(group, norm(now.block.rate_radps), now.block.bound_radps);
+    if (now.block.validity != ForceValidity::none && std::isfinite(bound_radps)) {
       ++run.bounded_blocks;
-      run.bound_sum_radps += now.block.bound_radps;
-      run.worst_bound_radps = std::fmax(run.worst_bound_radps, now.block.bound_radps);
+      run.bound_sum_radps += bound_radps;
+      run.worst_bound_radps = std::fmax(run.worst_bound_radps, bound_radps);
     }
   }
   run.last = now;
@@ -55,9 +56,12 @@ RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, con
   return out;
 }
 
-io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest) {
+io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest,
+                                    const io::GyroCalibration* calibration) {
+  const io::FileExpected<RateGroup> group = rate_group(array, calibration);
+  if (!group) return tl::unexpected<io::FileError>(group.error());
   auto monitor = std::make_unique<RateMonitor>();
-  if (const Expected<void> made = monitor->configure(array.array, array.rate); !made) {
+  if (const Expected<void> made = monitor->configure(group->array, group->setup); !made) {
     io::FileError error = io::from_error(made.error());
     error.file = array.path;
     error.field = "rate";
@@ -66,13 +70,14 @@ io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& l
   io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
   if (!reader) return tl::unexpected<io::FileError>(reader.error());
   reader->stop_when(interrupt_flag());
-  const SensorModel model = array.datasheet.model();
   RateRun run;
+  run.calibrated = group->calibrated;
+  run.common = group->common;
   Readings heard_s{};
   Sample sample;
   io::LogReader::Next next = io::LogReader::Next::row;
   while ((next = reader->next(sample)) == io::LogReader::Next::row) {
-    RateSample one = rate_sample(array, model, sample);
+    RateSample one = rate_sample(array, group->model, sample);
     one.at_rest = rest != nullptr && rest->at_rest(sample.time_s);
     run.samples_at_rest += one.at_rest ? 1 : 0;
     for (int i = 0; i < array.array.size(); ++i) {
@@ -81,7 +86,7 @@ io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& l
       if (run.samples == 0 || heard) heard_s[a] = sample.time_s;
     }
     ++run.samples;
-    take(monitor->step(one), sample.time_s, run);
+    take(monitor->step(one), sample.time_s, *group, run);
   }
   run.log = reader->statistics();
   for (int i = 0; i < array.array.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "plumb/motion/rate_monitor.hpp"
 #include "plumb/session/group_track.hpp"
 #include "plumb/session/log_spec.hpp"
+#include "plumb/session/rate_group.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -39,16 +40,21 @@ struct RateRun {
   std::uint64_t bounded_blocks = 0;
   std::vector<RateEvent> events;
   io::LogStatistics log;
+  bool calibrated = false;
+  double common = 0.0;  ///< `RateGroup::common`: in the bounds
   bool interrupted = false, stopped = false;
   io::FileError stop;
 };
 
-/// A row of a log as `RateMonitor` takes it, force and rest not known. `model`: that of the datasheet in `array`.
+/// A row of a log as `RateMonitor` takes it, force and rest not known. `model`: that of the datasheet in `array`, or
+/// of its calibration.
 RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, const Sample& sample);
 
-/// `rest`: when the tool stands still, by its accelerometers; null: not known. Readings are those of the datasheet in
-/// the array file: bias and scale as stated there. Errors: the log cannot be opened; the monitor refuses the setup.
-io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest);
+/// `rest`: when the tool stands still, by its accelerometers; null: not known. Readings, axes and bounds are those of
+/// the calibration; null: of the datasheet in the array file, bias and scale as stated there. Errors: the log cannot be
+/// opened; the monitor refuses the setup.
+io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest,
+                                    const io::GyroCalibration* calibration = nullptr);
 
 /// One line of JSON, without a newline.
 std::string rate_event_json(const RateEvent& event, const SensorArray& array);
