@@ -16,6 +16,7 @@
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/geometry_plot.hpp"
 #include "plumb/render/geometry_report.hpp"
+#include "plumb/render/rate_geometry.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 #include "read_array.hpp"
 #include "tool.hpp"
@@ -52,6 +53,7 @@ constexpr const char* kGeometryNotes =
     "Examples:\n"
     "  plumb geometry tool.toml\n"
     "  plumb geometry tool.toml --calibration cal.json --plots pictures\n"
+    "  plumb geometry tool.toml#mag         a group of the tool, in the units of its field\n"
     "  plumb geometry --name cone:5 --noise \"1 mg0\" --json\n\n"
     "Words: det = determinant of three unit axes (1 = orthogonal, 0 = in one plane); near singular = |det| below\n"
     "0.05, such a triple raises no alarm. Coplanarity c = most axes in one plane. Confirmed grade = faults that can\n"
@@ -127,14 +129,21 @@ io::FileExpected<void> name_subject(const GeometryOptions& options, GeometrySubj
 }
 
 io::FileExpected<void> read_subject(const GeometryOptions& options, GeometrySubject& subject) {
-  io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb geometry", Serves::gravity);
+  io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb geometry", Serves::all);
   if (!file) return tl::unexpected<io::FileError>(file.error());
   subject.name = file->name;
   subject.array = file->array;
   subject.model = file->datasheet.model();
   subject.gravity = file->gravity;
   subject.settings = findings::settings_of(*file);
-  if (!options.calibration.empty()) {
+  if (file->field == io::FieldKind::rate) {
+    if (!options.calibration.empty() || !options.plots.empty() || options.samples > 0)
+      return tl::unexpected<io::FileError>(refused(
+          !options.calibration.empty() ? "--calibration"
+          : options.samples > 0        ? "--samples"
+                                       : "--plots",
+          "belongs to a vector whose length is known; gyros are judged by parity, with [group.rate]", "leave it out"));
+  } else if (!options.calibration.empty()) {
     const io::FileExpected<io::CalibrationFile> found = io::read_calibration(options.calibration, *file);
     if (!found) return tl::unexpected<io::FileError>(found.error());
     print_error(render::exact_note(*found, options.calibration));
@@ -176,12 +185,22 @@ io::FileExpected<void> draw_geometry(const GeometryOptions& options, const Geome
   return {};
 }
 
+/// Gyros have no length to be held against: what parity alone gives.
+io::ExitCode judge_rates(const GeometryOptions& options, const io::ArrayFile& group) {
+  const findings::RateGeometry found = findings::study_rates(group.array, group.rate);
+  print(options.json ? render::rate_geometry_json(group, found) : render::rate_geometry_text(group, found));
+  if (!options.check || found.isolated_units > 0) return io::ExitCode::done;
+  print_error(fmt::format("plumb: {}: no_isolation: {}\n", group.name, render::kNoRateIsolation));
+  return io::ExitCode::verification_failed;
+}
+
 io::ExitCode run_geometry(const GeometryOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   GeometrySubject subject;
   const io::FileExpected<void> ready =
       options.array.empty() ? name_subject(options, subject) : read_subject(options, subject);
   if (!ready) return report(ready.error());
+  if (subject.field() == io::FieldKind::rate) return judge_rates(options, *subject.file);
   if (options.samples > 0) subject.settings.samples = options.samples;
   const GeometryStudy study = findings::study_geometry(subject);
   print(options.json ? render::geometry_json(subject, study) : render::geometry_text(subject, study));

@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <memory>
+#include <utility>
 
-#include "monitor_report.hpp"
+#include "monitor_watch.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/io/gyro_calibration.hpp"
-#include "plumb/io/output_file.hpp"
 #include "plumb/render/group_report.hpp"
-#include "plumb/session/group_track.hpp"
+#include "plumb/render/timeline.hpp"
+#include "plumb/session/group_dip.hpp"
 #include "plumb/session/rate_run.hpp"
 #include "read_array.hpp"
 
@@ -18,9 +20,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
-
-/// Blocks of two groups belong together within so many blocks' length.
-constexpr double kTogether = 1.0;
 
 struct Wanted {
   std::string name, calibration;
@@ -94,21 +93,11 @@ std::optional<io::FileError> clash_of(const MonitorOptions& options, const std::
 }
 
 std::optional<io::FileError> misuse(const MonitorOptions& o) {
-  std::error_code ignored;
-  const bool once = o.log.path == "-" || (std::filesystem::exists(o.log.path, ignored) &&
-                                          !std::filesystem::is_regular_file(o.log.path, ignored));
-  if (once)
+  if (o.limits || !o.roll_test.empty() || !o.snapshot_in.empty() || !o.snapshot_out.empty())
     return io::FileError{"--group",
                          0,
                          "",
-                         "needs the log several times, and standard input or a pipe can be read once",
-                         "record the stream to a file and give it with --log",
-                         io::ExitCode::usage};
-  if (o.log.follow || o.limits || !o.roll_test.empty() || !o.snapshot_in.empty() || !o.snapshot_out.empty())
-    return io::FileError{"--group",
-                         0,
-                         "",
-                         "does not go with --follow, --limits, --roll-test or a snapshot",
+                         "does not go with --limits, --roll-test or a snapshot",
                          "run each group by itself: --array TOOL.toml#GROUP",
                          io::ExitCode::usage};
   for (const std::string* path : {&o.events, &o.verdicts, &o.motion, &o.inclination}) {
@@ -146,37 +135,230 @@ io::ExitCode worse(io::ExitCode a, io::ExitCode b) {
   return a;
 }
 
-io::FileExpected<void> write_events(const std::string& path, const session::RateRun& run, const SensorArray& array) {
-  if (path.empty()) return {};
-  std::string text;
-  for (const session::RateEvent& event : run.events) text += session::rate_event_json(event, array) + "\n";
-  return io::write_file(path, text);
-}
+/// One group beside the accelerometers: magnetometers with a monitor like theirs, or gyros.
+struct Group {
+  explicit Group(const Wanted& one) : wanted(one) {}
+  const io::ArrayFile& array() const noexcept { return *wanted.array; }
 
-io::ExitCode monitor_rates(const MonitorOptions& options, const Wanted& group,
-                           const std::vector<session::TrackPoint>& gravity) {
-  session::RestTimes rest(gravity);
-  const io::FileExpected<session::RateRun> run =
-      session::run_rates(*group.array, options.log, &rest, group.gyros ? &*group.gyros : nullptr);
-  if (!run) return report(run.error());
-  if (const io::FileExpected<void> kept =
-          write_events(name_for_group(options.events, group.name), *run, group.array->array);
-      !kept)
-    return report(kept.error());
-  print_now(options.json ? render::rate_run_json(*run, *group.array) : render::rate_run_text(*run, *group.array));
-  if (!run->stopped) return run->interrupted ? io::ExitCode::other : io::ExitCode::done;
-  print_error("plumb: the log ended in an error; what came before counts.\n");
-  return report(run->stop);
-}
+  Wanted wanted;
+  std::string label;
+  std::unique_ptr<ArrayWatch> watch;
+  session::GroupTrack track;
+  std::unique_ptr<session::GroupDip> dip;  ///< of magnetometers whose dip is known
+  std::unique_ptr<session::RateWatch> rate;
+  std::optional<session::EventsFile> events, json;  ///< of gyros
+  std::pair<SensorSet, bool> shown;                 ///< what the table says of them: out of service, a rate at rest
+  session::RateRun run;
+};
 
-/// Blocks of the two groups that end together end within this.
-double together_s(const std::vector<session::TrackPoint>& a) {
-  double shortest_s = 0.0;
-  for (std::size_t k = 1; k < a.size(); ++k) {
-    const double apart_s = a[k].time_s - a[k - 1].time_s;
-    if (apart_s > 0.0 && (shortest_s == 0.0 || apart_s < shortest_s)) shortest_s = apart_s;
+/// All groups of one tool over one pass of its log.
+class ToolWatch {
+ public:
+  ToolWatch(const MonitorOptions& options, const std::vector<Wanted>& groups);
+  /// How the command ends, where it ends before the run.
+  std::optional<io::ExitCode> begin();
+  io::FileExpected<void> run();
+  io::ExitCode say();
+
+ private:
+  io::FileExpected<void> open_rate(Group& group);
+  io::FileExpected<void> open_dip(Group& group);
+  io::FileExpected<void> put(const session::DipEvent& event, const Group& group);
+  io::FileExpected<void> put(const session::RateEvent& event, Group& group);
+  io::FileExpected<void> keep(std::vector<session::LogShare>& shares);
+  io::Json summary() const;
+
+  const MonitorOptions& options_;
+  std::size_t widest_;
+  std::vector<std::unique_ptr<Group>> groups_;
+  std::unique_ptr<ArrayWatch> gravity_;
+  session::GroupTrack track_;
+};
+
+std::string column(const std::string& name, std::size_t widest) { return fmt::format("{:<{}}", name, widest + 2); }
+
+ToolWatch::ToolWatch(const MonitorOptions& options, const std::vector<Wanted>& groups)
+    : options_(options), widest_(std::string(to_string(io::FieldKind::gravity)).size()) {
+  for (const Wanted& one : groups) {
+    groups_.push_back(std::make_unique<Group>(one));
+    widest_ = std::max(widest_, one.name.size());
   }
-  return kTogether * shortest_s;
+}
+
+std::optional<io::ExitCode> ToolWatch::begin() {
+  MonitorOptions own = options_;
+  own.label = column(to_string(io::FieldKind::gravity), widest_);
+  auto gravity = ArrayWatch::begin(own);
+  if (!gravity) return gravity.error();
+  gravity_ = *std::move(gravity);
+  gravity_->add_first(track_);
+  for (const std::unique_ptr<Group>& group : groups_) {
+    group->label = column(group->wanted.name, widest_);
+    io::FileExpected<void> opened;
+    if (group->array().field == io::FieldKind::rate) {
+      opened = open_rate(*group);
+    } else {
+      MonitorOptions options = options_of(own, group->wanted);
+      options.label = group->label;
+      auto watch = ArrayWatch::begin(options);
+      if (!watch) return watch.error();
+      group->watch = *std::move(watch);
+      if (group->array().magnetic.dip_known) opened = open_dip(*group);
+    }
+    if (!opened) return report(opened.error());
+    if (options_.json) print_now(render::group_heading_json(group->array()));
+  }
+  if (gravity_->outputs().table) {
+    const std::string header = render::table_header(), indent = column("", widest_);
+    const std::size_t second = header.find('\n') + 1;
+    print_now(column("group", widest_) + header.substr(0, second) + indent + header.substr(second));
+  }
+  return std::nullopt;
+}
+
+io::FileExpected<void> ToolWatch::open_rate(Group& group) {
+  io::FileExpected<std::unique_ptr<session::RateWatch>> made =
+      session::RateWatch::make(group.array(), true, group.wanted.gyros ? &*group.wanted.gyros : nullptr);
+  if (!made) return tl::unexpected<io::FileError>(made.error());
+  group.rate = *std::move(made);
+  track_.tell(*group.rate);
+  group.rate->tell([this, &group](const session::RateEvent& event) { return put(event, group); });
+  const bool live = options_.log.path == "-" || options_.log.follow;
+  const std::pair<std::optional<session::EventsFile>*, std::string> files[] = {
+      {&group.events, name_for_group(options_.events, group.wanted.name)}, {&group.json, options_.json ? "-" : ""}};
+  for (const auto& [out, path] : files) {
+    if (path.empty()) continue;
+    io::FileExpected<io::OutputFile> file = io::OutputFile::create(path, io::OutputFile::Mode::stream);
+    if (!file) return tl::unexpected<io::FileError>(file.error());
+    out->emplace(*std::move(file), group.array().array, live || path == "-", path == "-" ? group.wanted.name : "");
+  }
+  return {};
+}
+
+/// The dip of a tool whose accelerometers follow the paper's algorithm is compared, and is no reference of three.
+io::FileExpected<void> ToolWatch::open_dip(Group& group) {
+  group.dip = std::make_unique<session::GroupDip>(gravity_->array(), group.array());
+  if (gravity_->monitor() != nullptr) {
+    io::FileExpected<std::unique_ptr<MonitorSetup>> setup = gravity_->setup();
+    if (!setup) return tl::unexpected<io::FileError>(setup.error());
+    group.dip->judge(*gravity_->monitor(), *std::move(setup));
+  }
+  group.watch->add_first(group.track);
+  group.track.tell(group.dip->field());
+  track_.tell(group.dip->gravity());
+  group.dip->tell([this, &group](const session::DipEvent& event) { return put(event, group); });
+  if (gravity_->outputs().verdicts) gravity_->outputs().verdicts->add(*group.dip);
+  return {};
+}
+
+io::FileExpected<void> ToolWatch::put(const session::DipEvent& event, const Group& group) {
+  Outputs& out = gravity_->outputs();
+  io::FileExpected<void> done;
+  for (std::optional<session::EventsFile>* const file : {&out.events, &out.json}) {
+    std::string line = session::dip_event_json(event, group.array(), gravity_->sensors());
+    if (*file && done) done = (*file)->put(line);
+  }
+  if (out.table) print_now(group.label + render::dip_line(event, group.array(), gravity_->sensors()));
+  return done;
+}
+
+io::FileExpected<void> ToolWatch::put(const session::RateEvent& event, Group& group) {
+  io::FileExpected<void> done;
+  for (std::optional<session::EventsFile>* const file : {&group.events, &group.json}) {
+    std::string line = session::rate_event_json(event, group.array().array);
+    if (*file && done) done = (*file)->put(line);
+  }
+  const std::pair<SensorSet, bool> now(event.excluded | event.off_at_rest, event.turned_at_rest);
+  if (gravity_->outputs().table && std::exchange(group.shown, now) != now)
+    print_now(group.label + render::rate_line(event, group.array().array));
+  return done;
+}
+
+io::FileExpected<void> ToolWatch::run() {
+  // Within a row the accelerometers come last: the field of the block that ends there is known then, and the gyros
+  // wait for what they say of rest. Rates that are to correct the accelerometers are known there too.
+  std::vector<session::LogShare> shares;
+  for (const std::unique_ptr<Group>& group : groups_)
+    shares.push_back(group->rate ? session::LogShare{&group->array(), group->rate.get(), {}} : group->watch->share());
+  shares.push_back(gravity_->share());
+  const io::FileExpected<void> done = session::run_log(gravity_->log(), shares);
+  return done ? keep(shares) : done;
+}
+
+/// The report of the tool last: it begins with what the others say.
+io::FileExpected<void> ToolWatch::keep(std::vector<session::LogShare>& shares) {
+  std::string doubts;
+  io::FileExpected<void> kept;
+  for (std::size_t k = 0; k < groups_.size() && kept; ++k) {
+    Group& group = *groups_[k];
+    if (group.rate) {
+      io::FileExpected<session::RateRun> ended = group.rate->end(std::move(shares[k].end));
+      if (!ended) return tl::unexpected<io::FileError>(ended.error());
+      group.run = *std::move(ended);
+      if (group.events) kept = group.events->commit();
+      continue;
+    }
+    const std::string doubt = group.dip ? group.dip->doubt() : "";
+    if (!doubt.empty()) doubts += (doubts.empty() ? "" : "; ") + doubt;
+    if (group.watch->outputs().report && group.dip && group.dip->check().disagreeing > 0)
+      group.watch->outputs().report->doubt(doubt);
+    kept = group.watch->keep(std::move(shares[k].end));
+  }
+  if (HealthReport* const report = gravity_->outputs().report.get(); report != nullptr) {
+    report->doubt(doubts);
+    report->begin_with(summary());
+  }
+  return kept ? gravity_->keep(std::move(shares.back().end)) : kept;
+}
+
+/// One object a group, for the report of the tool; the accelerometers are its own.
+io::Json ToolWatch::summary() const {
+  io::Json out = io::Json::array();
+  for (const std::unique_ptr<Group>& group : groups_) {
+    const io::ArrayFile& array = group->array();
+    io::Json one = io::object({{"name", array.group},
+                               {"field", to_string(array.field)},
+                               {"sensors", io::ids_of(array.array.all(), array.array)}});
+    if (group->rate) {
+      one["trusted"] = render::rate_is_trusted(group->run);
+      one["use"] = render::rate_sentence(group->run, array);
+      one["excluded"] = io::ids_of(group->run.last.excluded | group->run.last.off_at_rest, array.array);
+      one["page"] = io::Json();
+      one["dip"] = io::Json();
+    } else {
+      const verification::ToolHealth& health = group->watch->outputs().report->health();
+      one["trusted"] = health.use() == verification::SurveyUse::yes;
+      one["use"] = health.sentence();
+      one["excluded"] = io::ids_of(health.last().excluded, group->watch->sensors());
+      one["page"] = std::filesystem::path(name_for_group(options_.report, array.group)).filename().string();
+      one["dip"] = render::dip_sentence(group->dip.get(), gravity_->sensors());
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+io::ExitCode ToolWatch::say() {
+  io::ExitCode worst = gravity_->say();
+  const bool table = gravity_->outputs().table.has_value();
+  for (const std::unique_ptr<Group>& group : groups_) {
+    const io::ArrayFile& array = group->array();
+    if (table) print_now(render::group_heading(array));
+    if (group->rate) {
+      if (table || options_.json)
+        print_now(options_.json ? render::rate_run_json(group->run, array) : render::rate_run_text(group->run, array));
+      if (group->run.stopped) print_error("plumb: the log ended in an error; what came before counts.\n");
+      worst = worse(worst, group->run.stopped       ? report(group->run.stop)
+                           : group->run.interrupted ? io::ExitCode::other
+                                                    : io::ExitCode::done);
+      continue;
+    }
+    worst = worse(worst, group->watch->say());
+    const io::Json dip = io::object({{"dip", render::dip_json(group->dip.get(), array, gravity_->sensors())}});
+    print_now(options_.json ? dip.dump() + "\n" : render::dip_text(group->dip.get(), gravity_->sensors()));
+    if (group->dip && !group->dip->doubt().empty()) worst = worse(worst, io::ExitCode::verification_failed);
+  }
+  return worst;
 }
 
 }  // namespace
@@ -195,46 +377,10 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
   const io::FileExpected<std::vector<Wanted>> groups = groups_of(options, *tool);
   if (!groups) return report(groups.error());
   if (const std::optional<io::FileError> clash = clash_of(options, *groups)) return report(*clash);
-  session::GroupTrack gravity;
-  MonitorOptions own = options;
-  own.groups.clear();
-  own.report.clear();
-  io::ExitCode worst = monitor_array(own, &gravity);
-  if (worst == io::ExitCode::usage || worst == io::ExitCode::invalid_input || worst == io::ExitCode::other)
-    return worst;  // said already; what the groups would be held against is not there
-  std::vector<MonitorOptions> reports = {own};
-  for (const Wanted& group : *groups) {
-    if (interrupted()) return io::ExitCode::other;
-    print_now(options.json ? render::group_heading_json(*group.array) : render::group_heading(*group.array));
-    if (group.array->field == io::FieldKind::rate) {
-      worst = worse(worst, monitor_rates(options, group, gravity.points()));
-      continue;
-    }
-    session::GroupTrack field;
-    MonitorOptions wanted = options_of(own, group);
-    worst = worse(worst, monitor_array(wanted, &field));
-    const session::DipCheck dip =
-        group.array->magnetic.dip_known
-            ? session::check_dip(gravity.points(), field.points(), group.array->magnetic, together_s(field.points()))
-            : session::DipCheck{};
-    print_now(options.json ? render::dip_json(dip, *group.array) : render::dip_text(dip, *group.array));
-    if (dip.disagreeing > 0) {
-      worst = worse(worst, io::ExitCode::verification_failed);
-      wanted.report_doubt = reports.front().report_doubt =
-          fmt::format("gravity and the field of {} disagree by the dip", group.name);
-    }
-    wanted.report = name_for_group(options.report, group.name);
-    reports.push_back(std::move(wanted));
-  }
-  if (options.report.empty()) return worst;
-  reports.front().report = options.report;
-  for (MonitorOptions& one : reports) {
-    one.report_only = true;
-    for (std::string* file : {&one.events, &one.verdicts, &one.motion, &one.inclination, &one.incidents.directory})
-      file->clear();
-    worst = worse(worst, monitor_array(one, nullptr));
-  }
-  return worst;
+  ToolWatch watch(options, *groups);
+  if (const std::optional<io::ExitCode> ended = watch.begin()) return *ended;
+  const io::FileExpected<void> done = watch.run();
+  return done ? watch.say() : report(done.error());
 }
 
 }  // namespace cli

@@ -7,12 +7,8 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace cli {
 
-/// One array, as `plumb monitor` without groups runs it. `beside`: a sink beside those that were asked for; may be
-/// null.
-io::ExitCode monitor_array(const MonitorOptions& options, session::VerdictSink* beside);
-
-/// The accelerometers, then each group that was asked for, each with files of its own ("events-mag.jsonl"), then what
-/// they say together.
+/// The accelerometers and each group that was asked for, in step over one pass of the log, with files of their own
+/// ("events-mag.jsonl"), and what they say together.
 io::ExitCode monitor_tool(const MonitorOptions& options);
 
 /// "V.jsonl" -> "V-mag.jsonl"; what is empty or "-" stays.

@@ -10,14 +10,15 @@ namespace {
 /// A table line at each event.
 class MotionTable final : public session::MotionSink {
  public:
-  explicit MotionTable(const SensorArray& array) : array_(array) {}
+  MotionTable(const SensorArray& array, const std::string& label) : array_(array), label_(label) {}
   io::FileExpected<void> take(double, const MotionVerdict&, const std::vector<io::MotionEvent>& events) override {
-    for (const io::MotionEvent& event : events) print_now(render::motion_line(event, array_));
+    for (const io::MotionEvent& event : events) print_now(label_ + render::motion_line(event, array_));
     return {};
   }
 
  private:
   const SensorArray& array_;
+  const std::string& label_;
 };
 
 /// The option that asks for results in motion; empty: none does.
@@ -71,7 +72,7 @@ io::FileExpected<void> MonitorMotion::open(const MonitorOptions& options, const 
     if (*events) sinks_.push_back(std::make_unique<session::MotionEvents>(**events, sensors));
   }
   if (outputs.report) watch_->tell(outputs.report->motion());
-  if (outputs.table) sinks_.push_back(std::make_unique<MotionTable>(sensors));
+  if (outputs.table) sinks_.push_back(std::make_unique<MotionTable>(sensors, options.label));
   for (const std::unique_ptr<session::MotionSink>& sink : sinks_) watch_->tell(*sink);
   const bool live = options.log.path == "-" || options.log.follow;
   if (!options.inclination.empty()) {

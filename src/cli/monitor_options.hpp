@@ -30,8 +30,8 @@ struct MonitorOptions {
   std::string snapshot_out;
   std::vector<std::string> host;
   std::vector<std::string> groups;  ///< "mag=mag.json", "gyros"
-  bool report_only = false;         ///< the run again, for its report: nothing else is printed or written
-  std::string report_doubt;         ///< what other groups say against the result; empty: nothing
+  /// Stands before each line of the table where several groups share it; empty: the array is watched alone.
+  std::string label;
   bool every_sample = false;
   bool limits = false;
   bool json = false;

@@ -10,12 +10,12 @@ namespace cli {
 io::FileExpected<void> TableSink::take(const Sample& sample, const Verdict& verdict) {
   if (!started_) {
     const bool fresh = past_.empty();
-    print_now(render::table_header() +
+    print_now((label_.empty() ? render::table_header() : label_) +
               render::table_line(fresh ? render::power_on_row(sample.time_s, now_.state)
                                        : render::restored_row(sample.time_s, now_, frame_, past_)));
   }
   started_ = true;
-  if (verdict.transition.sequence != 0) print_now(render::table_line(render::row_of(verdict, array_, frame_)));
+  if (verdict.transition.sequence != 0) print_now(label_ + render::table_line(render::row_of(verdict, array_, frame_)));
   return {};
 }
 
@@ -42,16 +42,15 @@ io::FileExpected<void> open_outputs(const MonitorOptions& options, const io::Arr
     out.report = *std::move(report);
     out.sinks.push_back(out.report.get());
   }
-  if (options.report_only) return {};
   // --events - writes there what --json would.
   const bool told = options.events == "-";
   if (options.json && told) return {};
   if (options.json) {
     io::FileExpected<io::OutputFile> file = io::OutputFile::create("-", io::OutputFile::Mode::stream);
     if (!file) return tl::unexpected<io::FileError>(file.error());
-    out.sinks.push_back(&out.json.emplace(*std::move(file), sensors, true));
+    out.sinks.push_back(&out.json.emplace(*std::move(file), sensors, true, options.label.empty() ? "" : array.group));
   } else if (!taken) {
-    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame, now, past));
+    out.sinks.push_back(&out.table.emplace(sensors, array.output_frame, now, past, options.label));
   }
   return {};
 }

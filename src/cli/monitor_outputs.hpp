@@ -19,9 +19,9 @@ namespace cli {
 class TableSink : public session::VerdictSink {
  public:
   /// `now`: what the monitor says before the first sample; `past`: what it goes on from, empty where it was switched
-  /// on.
-  TableSink(const SensorArray& array, const Mat3& frame, const Verdict& now, std::string past)
-      : array_(array), frame_(frame), now_(now), past_(std::move(past)) {}
+  /// on; `label`: before each line, of a table that has its header already; empty: the table is this sink's.
+  TableSink(const SensorArray& array, const Mat3& frame, const Verdict& now, std::string past, std::string label)
+      : array_(array), frame_(frame), now_(now), past_(std::move(past)), label_(std::move(label)) {}
 
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
@@ -30,7 +30,7 @@ class TableSink : public session::VerdictSink {
   const SensorArray& array_;
   Mat3 frame_;
   Verdict now_;
-  std::string past_;
+  std::string past_, label_;
   bool started_ = false;
 };
 

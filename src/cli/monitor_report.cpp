@@ -36,6 +36,7 @@ std::string command_of(const MonitorOptions& o) {
   if (o.log.on_bad_row == io::BadRowPolicy::skip) out += " --on-bad-row skip";
   if (!o.snapshot_in.empty()) out += " --snapshot-in " + io::shell_word(o.snapshot_in);
   if (!o.roll_test.empty()) out += " --roll-test " + io::shell_word(o.roll_test);
+  for (const std::string& group : o.groups) out += " --group " + io::shell_word(group);
   for (const std::string& request : o.host) out += " --host " + io::shell_word(request);
   return out + " --report " + io::shell_word(o.report);
 }
@@ -146,13 +147,14 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const
     calibration = *std::move(read);
   }
   if (render::common_cause_of(run, array_)) health_.doubt("one cause may have moved several sensors of one direction");
-  if (!options_.report_doubt.empty()) health_.doubt(options_.report_doubt);
+  if (!doubt_.empty()) health_.doubt(doubt_);
   beside_ = render::note_actions(run, array_, sensors_);
   for (std::string& action : render::motion_actions(motion, array_)) beside_.push_back(std::move(action));
   if (const std::string exact = calibration ? render::exact_words(*calibration, options_.calibration) : "";
       !exact.empty())
     beside_.push_back(exact);
   Json report = render::health_json(health_, sensors_, beside_);
+  if (!groups_.is_null()) report["groups"] = groups_;
   put_counts(run, array_, sensors_, report["extremes"]);
   report["motion"] = render::motion_report_json(motion, motion_, array_);
   report["basis"] = render::basis_json(array_, calibration ? &*calibration : nullptr, days_);

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "monitor_options.hpp"
 #include "plumb/io/output_file.hpp"
@@ -32,10 +34,15 @@ class HealthReport : public session::VerdictSink {
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_depth(double depth_m) override { depth_m_ = depth_m; }
 
+  /// What other groups say against the result, and all groups of the tool for the beginning of the page. Before
+  /// `write`.
+  void doubt(const std::string& why) { doubt_ = why; }
+  void begin_with(io::Json groups) { groups_ = std::move(groups); }
   /// Is to be told what a monitor of motion finds, where there is one.
   session::MotionTrace& motion() noexcept { return motion_; }
   /// At the end of the run, however it ended.
   io::FileExpected<void> write(const session::MonitorRun& run, const render::MotionTold& motion);
+  const verification::ToolHealth& health() const noexcept { return health_; }
   /// "usable for survey: yes" and what to do, for the end of a terminal's summary.
   std::string summary() const;
 
@@ -51,6 +58,8 @@ class HealthReport : public session::VerdictSink {
   verification::ToolHealth health_;
   session::MotionTrace motion_;
   std::vector<std::string> beside_;  ///< what else is to be done
+  std::string doubt_;
+  io::Json groups_;
   double depth_m_;
 };
 

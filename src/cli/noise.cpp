@@ -48,7 +48,8 @@ constexpr const char* kNoiseNotes =
     "  plumb noise still.csv --array tool.toml\n"
     "  plumb noise still.csv --unit count --rate \"100 Hz\" --html noise.html\n"
     "  plumb noise still.csv --columns ax_mps2 --columns ay_mps2 --json\n\n"
-    "With an array file the log is read as it says, and results are accelerations. Without one every column of "
+    "With an array file the log is read as it says, and results are accelerations, of a group\n"
+    "(tool.toml#NAME) in the units of its field: nT, of gyros deg/sqrt(h) and deg/h. Without one every column of "
     "numbers\n"
     "is studied but the time, which is the column t, time or timestamp (time_us: in microseconds).\n"
     "The longest stretch at rest without a gap is used. A term that the log does not show has a bound, and how much\n"
@@ -102,7 +103,8 @@ render::NoiseReport study(const NoiseOptions& options, const io::ArrayFile* arra
   render::NoiseReport out;
   out.log = options.log == "-" ? "standard input" : options.log;
   out.array = options.array;
-  const int window = array != nullptr ? array->monitor.window : kUsualBlock;
+  const bool rate = array != nullptr && array->field == io::FieldKind::rate;
+  const int window = array != nullptr && !rate ? array->monitor.window : kUsualBlock;
   out.block = static_cast<std::size_t>(options.block > 0 ? options.block : window);
   out.time_column = loaded.time_column;
   out.left_out = loaded.left_out;
@@ -111,7 +113,7 @@ render::NoiseReport study(const NoiseOptions& options, const io::ArrayFile* arra
   const noise::StudyOptions how{out.block, options.per_octave};
   for (std::size_t c = 0; c < loaded.log.columns.size() && !interrupted(); ++c) {
     render::NoiseAxis axis{noise::study_axis(loaded.log, c, how), loaded.units[c], std::nullopt};
-    if (!loaded.declared.empty()) axis.declared_mps2 = loaded.declared[c];
+    if (!loaded.declared.empty()) axis.declared = loaded.declared[c];
     out.axes.push_back(std::move(axis));
   }
   return out;
@@ -138,11 +140,11 @@ io::FileExpected<void> draw_noise(const NoiseOptions& options, const render::Noi
 io::ExitCode run_noise(const NoiseOptions& options) {
   if (const std::optional<io::FileError> wrong = misused(options)) return report(*wrong);
   if (const std::optional<io::FileError> clash =
-          overwritten({{"--html", options.page}}, {{"--array", options.array}, {"LOG", options.log}}))
+          overwritten({{"--html", options.page}}, {{"--array", array_file_of(options.array)}, {"LOG", options.log}}))
     return report(*clash);
   std::optional<io::ArrayFile> array;
   if (!options.array.empty()) {
-    io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb noise", Serves::gravity);
+    io::FileExpected<io::ArrayFile> file = read_array(options.array, "plumb noise", Serves::all);
     if (!file) return report(file.error());
     array = *std::move(file);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "plumb/geomagnetic/field_reference.hpp"
+#include "plumb/io/file_error.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -40,6 +41,16 @@ io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* 
                                  : "plumb monitor --array " + array_file_of(path) + " --group " + array->group +
                                        " watches gyros beside the accelerometers",
                     io::ExitCode::usage});
+}
+
+io::FileExpected<io::ArrayFile> read_accelerometers(const std::string& path, const char* command, const char* instead) {
+  io::FileExpected<io::ArrayFile> array = io::read_array_file(path, geomagnetic::lookup);
+  if (!array || array->field == io::FieldKind::gravity) return array;
+  return tl::unexpected<io::FileError>(io::FileError{
+      path, 0, "", fmt::format("{} does not serve a group of {}s", command, io::units_of(array->field).sensor),
+      fmt::format(fmt::runtime(instead), io::shell_word(path)) +
+          "; for the accelerometers name the array file without #" + array->group,
+      io::ExitCode::usage});
 }
 
 }  // namespace cli

@@ -26,6 +26,10 @@ std::string columns_left_out(const io::ArrayFile& array, const std::string& out)
 /// serve.
 io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* command, Serves serves);
 
+/// The same of a command that serves accelerometers alone. `instead` says what serves a group, with "{}" for its path:
+/// "plumb geometry {} has its sizes".
+io::FileExpected<io::ArrayFile> read_accelerometers(const std::string& path, const char* command, const char* instead);
+
 }  // namespace cli
 }  // namespace PLUMB_ABI
 }  // namespace plumb

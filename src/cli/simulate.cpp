@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "plumb/geomagnetic/field_reference.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/scenario_file.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -39,6 +40,8 @@ constexpr const char* kSimulateNotes =
     "  tool = \"paper\"             # or array = \"my_tool.toml\", relative to the scenario file\n"
     "  [attitude]\n"
     "  law = \"drilling-path\"      # or fixed, list, random, roll-test\n\n"
+    "An array file with [[group]]s: the log has the columns of all of them, which plumb monitor --group reads;\n"
+    "array = \"my_tool.toml#mag\" simulates one group alone.\n\n"
     "--flight simulates motion instead, of the array of an ARRAY file with lever arms: specific force, rotation, "
     "vibration,\n"
     "shocks, and a gyro where [input] names rotation_radps. Errors are drawn within the bounds that the file states "
@@ -72,10 +75,10 @@ std::optional<io::FileError> conflict(const SimulateOptions& options, const io::
 
 /// What was played, where it does not stand in the way of the log.
 void tell(const SimulateOptions& options, const io::ScenarioFile& file, const session::ScenarioPlay& play) {
-  const scenario::FaultContext context = io::fault_context(file.array);
   const bool to_pipe = options.out == "-" || options.truth == "-" || options.array_out == "-";
   if (!to_pipe) {
-    for (const scenario::Fault& fault : file.scenario.faults) print(scenario::describe(fault, context) + "\n");
+    for (const session::ScenarioPlay::PlayedFault& one : play.faults())
+      print(scenario::describe(one.fault, io::fault_context(*one.array)) + "\n");
     print(fmt::format("written: {} ({}, {}, t = {:.3f} to {:.3f} s)\n", options.out, count_text(play.rows(), "row"),
                       count_text(play.stations(), "station"), file.scenario.start_s, play.last_time_s()));
     for (const std::string& other : {options.truth, options.array_out}) {
@@ -83,12 +86,13 @@ void tell(const SimulateOptions& options, const io::ScenarioFile& file, const se
     }
   }
   if (interrupted()) return;
-  for (const std::size_t k : play.without_effect()) {
+  for (const session::ScenarioPlay::PlayedFault& one : play.faults()) {
+    if (one.shown) continue;
     print_error(
         fmt::format("plumb: {}: fault[{}].spec: {} changed nothing: the run (t = {:.3f} to {:.3f} s, {}) "
                     "has no such time, row or station.\n",
-                    file.path, k + 1, scenario::to_text(file.scenario.faults[k], context), file.scenario.start_s,
-                    play.last_time_s(), count_text(play.stations(), "station")));
+                    file.path, one.table, scenario::to_text(one.fault, io::fault_context(*one.array)),
+                    file.scenario.start_s, play.last_time_s(), count_text(play.stations(), "station")));
   }
 }
 
@@ -99,22 +103,25 @@ io::ExitCode run_simulate(const SimulateOptions& options) {
       return report(usage_error("--array-out", "a flight is of an array file already", "leave it out"));
     return run_flight(options.flight, {options.scenario, options.out, options.truth, options.seed});
   }
-  io::FileExpected<io::ScenarioFile> file = io::read_scenario(options.scenario);
+  io::FileExpected<io::ScenarioFile> file = io::read_scenario(options.scenario, geomagnetic::lookup);
   if (!file) return report(file.error());
-  if (options.seed) file->scenario.seed = *options.seed;
+  if (options.seed) {
+    file->scenario.seed = *options.seed;
+    for (io::ScenarioFile::Group& group : file->groups) group.scenario.seed = *options.seed;
+  }
   if (const std::optional<io::FileError> error = conflict(options, *file)) return report(*error);
   const std::vector<NamedFile> to_write = {
       {"--out", options.out}, {"--truth", options.truth}, {"--array-out", options.array_out}};
   const std::vector<NamedFile> to_read = {{"SCENARIO", options.scenario}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, to_read)) return report(*clash);
-  tl::expected<scenario::Simulator, std::string> simulator = scenario::Simulator::make(file->scenario);
-  if (!simulator) return report(io::FileError{options.scenario, 0, "", simulator.error(), ""});
+  const tl::expected<std::unique_ptr<session::ScenarioPlay>, std::string> made = session::ScenarioPlay::make(*file);
+  if (!made) return report(io::FileError{options.scenario, 0, "", made.error(), ""});
+  session::ScenarioPlay& play = **made;
   if (!options.array_out.empty()) {
     const io::FileExpected<void> written = io::write_file(options.array_out, file->array.text);
     if (!written) return report(written.error());
   }
   watch_interrupts();
-  session::ScenarioPlay play(*file, *std::move(simulator));
   const io::FileExpected<void> done = play.run(options.out, options.truth);
   if (!done) return report(done.error());
   tell(options, *file, play);

@@ -102,7 +102,9 @@ std::optional<io::FileError> flight_misuse(const FlightOptions& options) {
 io::ExitCode run_flight(const FlightOptions& options, const FlightFiles& files) {
   const std::vector<NamedFile> to_write = {{"--out", files.out}, {"--truth", files.truth}};
   if (const std::optional<io::FileError> clash = overwritten(to_write, {{"ARRAY", files.array}})) return report(*clash);
-  const io::FileExpected<io::ArrayFile> array = read_array(files.array, "plumb simulate", Serves::gravity);
+  const io::FileExpected<io::ArrayFile> array =
+      read_accelerometers(files.array, "plumb simulate --flight",
+                          "write a scenario with array = \"{}\", which turns the tool from station to station");
   if (!array) return report(array.error());
   const io::FileExpected<std::vector<scenario::Fault>> faults = faults_of(options.faults, *array);
   if (!faults) return report(faults.error());

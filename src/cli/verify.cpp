@@ -72,7 +72,7 @@ std::string summary(const Verification& found, const std::string& out) {
   std::string text = verdict.sentence + "\n\n";
   for (const verification::Criterion& c : verdict.criteria)
     text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result), entry_of(c.id).title, c.found);
-  text += render::sizes_text(found.sizes, found.array.array.size());
+  text += render::sizes_text(found.sizes, found.array.array.size(), found.array.field);
   const verification::RequirementCounts& n = verdict.requirements;
   text += fmt::format("\nrequirements: {} ({} active): {} verified, {} failed, {} open, {} traced without results\n",
                       n.requirements, n.active, n.verified, n.failed, n.open, n.traced);

@@ -12,6 +12,11 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
+constexpr const char* kInsteadOfGroup =
+    "plumb geometry {} has the least faults that it is sure to find, and plumb simulate with plumb monitor --group "
+    "plays "
+    "faults against it";
+
 io::FileExpected<void> note_input(const char* role, const std::string& path, VerifyInputs& inputs) {
   if (path.empty()) return {};
   const io::FileExpected<std::string> bytes = io::read_file(path);
@@ -37,7 +42,7 @@ io::FileExpected<VerifyInputs> read_inputs(const VerifyOptions& options, Verific
   VerifyInputs inputs;
   std::optional<io::FileError> error;
   const auto fail = [&error] { return tl::unexpected<io::FileError>(*error); };
-  if (!take(read_array(options.array, "plumb verify", Serves::gravity), out.array, error)) return fail();
+  if (!take(read_accelerometers(options.array, "plumb verify", kInsteadOfGroup), out.array, error)) return fail();
   take_known_attitudes(options.known_attitudes, out.array);
   inputs.limits = verification::limits_of(out.array);
   if (!options.limits.empty() && !take(verification::read_limits(options.limits, out.array), inputs.limits, error))

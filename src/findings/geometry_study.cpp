@@ -112,13 +112,16 @@ double largest_sigma(const SensorArray& array) {
 std::vector<ProtectionPoint> levels_of(const GeometrySubject& subject) {
   std::vector<ProtectionPoint> out;
   if (subject.array.size() < 4) return out;
-  for (const double sigma_mg0 : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
-    const double factor = mps2_from_g0(1e-3 * sigma_mg0) / largest_sigma(subject.array);
+  // In the fine unit of the field: mg0, and nT.
+  const double unit = subject.field() == io::FieldKind::magnetic ? 50.0 : 1.0;
+  for (const double level : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
+    const double sigma = unit * level;
+    const double factor = sigma / io::units_of(subject.field()).fine_per_inside / largest_sigma(subject.array);
     const Expected<SensorArray> array = with_noise(subject.array, factor);
     if (!array) continue;
     TestSettings one = subject.settings;
     one.samples = 1.0;
-    out.push_back({sigma_mg0, deg_from_rad(protection_level_rad(*array, subject.gravity, one)),
+    out.push_back({sigma, deg_from_rad(protection_level_rad(*array, subject.gravity, one)),
                    deg_from_rad(protection_level_rad(*array, subject.gravity, subject.settings))});
   }
   return out;

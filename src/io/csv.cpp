@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -40,7 +41,8 @@ void wait_for_more() noexcept {
 }  // namespace
 
 LineSource::~LineSource() {
-  if (descriptor_ > STDIN_FILENO) (void)::close(descriptor_);
+  for (LineSource* other : beside_) other->beside_.erase(std::find(other->beside_.begin(), other->beside_.end(), this));
+  if (beside_.empty() && descriptor_ > STDIN_FILENO) (void)::close(descriptor_);
 }
 
 int LineSource::open(const std::string& path) {
@@ -49,9 +51,32 @@ int LineSource::open(const std::string& path) {
   return descriptor_ < 0 ? errno : 0;
 }
 
+void LineSource::open_beside(LineSource& first) {
+  buffer_.resize(kFirstBuffer);
+  descriptor_ = first.descriptor_;
+  beside_ = first.beside_;
+  beside_.push_back(&first);
+  for (LineSource* other : beside_) other->beside_.push_back(this);
+}
+
 void LineSource::hash_bytes() {
   hashing_ = true;
   hash_ = fnv1a(buffer_.data(), end_);  // the header's chunk has been read already
+}
+
+/// As `read` behind what is there: what another source has read already, or what is new, which the others get too.
+std::ptrdiff_t LineSource::fetch() {
+  char* const to = buffer_.data() + end_;
+  const std::size_t room = buffer_.size() - end_;
+  if (!waiting_.empty()) {
+    const std::size_t count = waiting_.copy(to, room);
+    waiting_.erase(0, count);
+    return static_cast<std::ptrdiff_t>(count);
+  }
+  const ssize_t count = ::read(descriptor_, to, room);
+  if (count <= 0) return count;
+  for (LineSource* other : beside_) other->waiting_.append(to, static_cast<std::size_t>(count));
+  return count;
 }
 
 /// Reads more behind what is there. False at the end, at an error, or where a stop was asked for.
@@ -71,7 +96,7 @@ bool LineSource::refill() {
   }
   for (;;) {
     if (stopped()) return false;
-    const ssize_t count = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
+    const std::ptrdiff_t count = fetch();
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       error_number_ = errno;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ class LineSource {
 
   /// errno, or 0.
   int open(const std::string& path);
+  /// Another reader of all that `first` will read; `first` has been opened, and no source of its bytes has read any.
+  void open_beside(LineSource& first);
   /// The next line without its end ("\n" or "\r\n"), valid until the next call. After `failed`,
   /// `error_number` says why (EMSGSIZE: a line beyond 16 MB).
   Status next(std::string_view& line);
@@ -50,8 +53,11 @@ class LineSource {
 
  private:
   bool refill();
+  std::ptrdiff_t fetch();
 
   std::vector<char> buffer_;
+  std::vector<LineSource*> beside_;  ///< who else is to have what this one reads
+  std::string waiting_;              ///< what one of them has read, and this one has not come to
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   int descriptor_ = -1;

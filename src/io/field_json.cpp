@@ -24,9 +24,10 @@ bool ends_with(std::string_view text, std::string_view end) {
 
 Json scaled_by(const Json& value, double factor) {  // NOLINT(misc-no-recursion) as deep as its lists
   if (value.is_number()) return factor * value.get<double>();
-  if (!value.is_array()) return value;
-  Json out = Json::array();
-  for (const Json& one : value) out.push_back(scaled_by(one, factor));
+  Json out = value;
+  if (value.is_structured()) {
+    for (Json& one : out) one = scaled_by(one, factor);
+  }
   return out;
 }
 
@@ -53,7 +54,7 @@ Json of_magnetic(const Json& value) {  // NOLINT(misc-no-recursion) as deep as t
     double factor = 0.0;
     if (key == kUsualStability) key = "stability_7_85_nt";
     for (const Suffix& suffix : kMagnetic) {
-      if (one.is_object() || !ends_with(key, suffix.of_gravity)) continue;
+      if (!ends_with(key, suffix.of_gravity)) continue;
       key.replace(key.size() - suffix.of_gravity.size(), std::string::npos, suffix.of_field);
       factor = suffix.factor;
       break;
@@ -70,7 +71,7 @@ Json stretched(const Json& value, double fine, double coarse) {  // NOLINT(misc-
   Json out = value;
   for (auto item = out.begin(); item != out.end(); ++item) {
     double by = 0.0;
-    if (value.is_object() && !item->is_object()) {
+    if (value.is_object()) {
       const std::string& key = item.key();
       by = key == "g_mps2"                                                                      ? coarse
            : ends_with(key, "_per_mps2")                                                        ? 1.0 / coarse

@@ -183,28 +183,45 @@ const Rotation& LogReader::rotation() const noexcept { return state_->rotation; 
 const std::vector<double>& LogReader::clock_s() const noexcept { return state_->clock_s; }
 const Rotation& LogReader::second_rotation() const noexcept { return state_->second_rotation; }
 
-FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {
-  auto state = std::make_unique<State>();
-  state->path = shown_path(path);
-  state->input = array.input;
-  state->policy = policy;
-  const int error_number = state->source.open(path);
-  if (error_number != 0) return tl::unexpected<FileError>(state->io_failure(error_number));
-  const State::Kind kind = state->kind_of_log();
-  if (kind == State::Kind::plog) {
+/// Up to the first row.
+FileExpected<void> LogReader::State::begin(const std::string& file) {
+  const Kind kind = kind_of_log();
+  if (kind == Kind::plog) {
     return tl::unexpected<FileError>(FileError{
-        state->path, 0, "", "is a .plog, the binary log of plumb before it wrote ULog, which is read no longer",
+        path, 0, "", "is a .plog, the binary log of plumb before it wrote ULog, which is read no longer",
         "write it as CSV with the plumb that wrote it: plumb convert --array ARRAY.toml --log LOG.plog --out LOG.csv"});
   }
-  const bool binary = kind == State::Kind::ulog;
-  FileExpected<void> done = binary ? state->read_binary_header(path) : state->read_header();
-  if (done) done = state->map_columns();
-  if (done && binary) {
-    state->plan_sensors();
-    done = state->check_binary();
+  FileExpected<void> done = kind == Kind::ulog ? read_binary_header(file) : read_header();
+  if (done) done = map_columns();
+  if (!done || kind != Kind::ulog) return done;
+  plan_sensors();
+  return check_binary();
+}
+
+FileExpected<LogReader> LogReader::open(const std::string& path, const ArrayFile& array, BadRowPolicy policy) {
+  FileExpected<std::vector<LogReader>> one = open(path, {&array}, policy);
+  if (!one) return tl::unexpected<FileError>(one.error());
+  return std::move(one->front());
+}
+
+FileExpected<std::vector<LogReader>> LogReader::open(const std::string& path,
+                                                     const std::vector<const ArrayFile*>& arrays, BadRowPolicy policy) {
+  std::vector<LogReader> out;
+  for (const ArrayFile* array : arrays) {
+    auto state = std::make_unique<State>();
+    state->path = shown_path(path);
+    state->input = array->input;
+    state->policy = policy;
+    const int error_number = out.empty() ? state->source.open(path) : 0;
+    if (error_number != 0) return tl::unexpected<FileError>(state->io_failure(error_number));
+    if (!out.empty()) state->source.open_beside(out.front().state_->source);
+    out.push_back(LogReader(std::move(state)));
   }
-  if (!done) return tl::unexpected<FileError>(done.error());
-  return LogReader(std::move(state));
+  for (LogReader& reader : out) {
+    const FileExpected<void> begun = reader.state_->begin(path);
+    if (!begun) return tl::unexpected<FileError>(begun.error());
+  }
+  return out;
 }
 
 /// The next row of a CSV, cut into cells.

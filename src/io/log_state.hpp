@@ -64,6 +64,7 @@ struct LogReader::State {
   [[gnu::cold, gnu::noinline]] bool refuse_tag(std::size_t column, const char* what);
   [[gnu::cold, gnu::noinline]] bool refuse_time(double time_s);
   FileError io_failure(int error_number) const;
+  FileExpected<void> begin(const std::string& file);
   FileExpected<void> read_header();
   FileExpected<void> map_columns();
   FileExpected<std::size_t> column_of(const std::string& name, const std::string& role) const;

@@ -95,7 +95,11 @@ ClockTimes clock_times(const std::vector<double>& clock_s) noexcept {
   return out;
 }
 
-LogWriter::LogWriter(OutputFile file, const InputSpec& input, Columns columns) : file_(std::move(file)), input_(input) {
+LogWriter::LogWriter(OutputFile file, const ArrayFile& array, Columns columns)
+    : file_(std::move(file)), input_(array.input) {
+  if (columns == Columns::tool) {
+    for (const ArrayFile& group : array.groups) groups_.push_back(group.input);
+  }
   if (columns != Columns::samples) return;
   input_.rotation_columns.clear();
   input_.second_rotation_columns.clear();
@@ -139,6 +143,9 @@ FileExpected<void> LogWriter::begin_csv() {
   for (const std::string& column : input_.second_rotation_columns) add(column);
   for (std::size_t c = 0; c < input_.clock_columns.size(); ++c) add(own_clock_column(input_, c));
   for (const std::string& column : input_.sensor_columns) add(column);
+  for (const InputSpec& group : groups_) {
+    for (const std::string& column : group.sensor_columns) add(column);
+  }
   header += '\n';
   return file_.write(header);
 }
@@ -167,6 +174,9 @@ FileExpected<void> LogWriter::begin_ulog() {
   for (std::size_t c = 0; c < input_.clock_columns.size(); ++c)
     add("clock_" + std::to_string(c + 1) + "_s", own_clock_column(input_, c), "s");
   for (const std::string& column : input_.sensor_columns) add(column, column, input_.unit.name);
+  for (const InputSpec& group : groups_) {
+    for (const std::string& column : group.sensor_columns) add(column, column, group.unit.name);
+  }
   if (input_.time_column.empty()) header.rate_hz = input_.rate_hz;
   if (const std::string misfit = ulog_misfit(header); !misfit.empty()) {
     return tl::unexpected<FileError>(FileError{file_.path(), 0, "", misfit, "write a CSV (a name that ends in .csv)"});
@@ -183,7 +193,7 @@ FileExpected<LogWriter> LogWriter::create(const std::string& path, const ArrayFi
   const bool ulog = form == Form::ulog || (form == Form::by_name && (ends_in(path, ".ulg") || ends_in(path, ".ulog")));
   FileExpected<OutputFile> file = OutputFile::create(path, OutputFile::Mode::stream);
   if (!file) return tl::unexpected<FileError>(file.error());
-  LogWriter writer(*std::move(file), array.input, columns);
+  LogWriter writer(*std::move(file), array, columns);
   writer.choose_constants();
   const FileExpected<void> begun = ulog ? writer.begin_ulog() : writer.begin_csv();
   if (!begun) return tl::unexpected<FileError>(begun.error());
@@ -211,9 +221,12 @@ FileExpected<void> LogWriter::write(const Sample& sample, const Notes& notes) {
     const double time_s = notes.clock_s[c];
     cells.in_unit(std::isfinite(time_s), time_s, input_.time_unit_s);
   }
-  for (std::size_t i = 0; i < input_.sensor_columns.size(); ++i) {
-    cells.number(sample.delivered.has(static_cast<int>(i)), sample.raw[i]);
-  }
+  const auto readings = [&cells](const InputSpec& input, const Sample& of) {
+    for (std::size_t i = 0; i < input.sensor_columns.size(); ++i)
+      cells.number(of.delivered.has(static_cast<int>(i)), of.raw[i]);
+  };
+  readings(input_, sample);
+  for (std::size_t k = 0; k < groups_.size() && notes.groups != nullptr; ++k) readings(groups_[k], notes.groups[k]);
   if (ulog_ != nullptr) return ulog_->end_row(file_);
   line_ += '\n';
   return file_.write(line_);

@@ -146,6 +146,11 @@ void read_attitude(const ScenarioSource& source, scenario::Scenario& out) {
   if (out.dwell_s * out.rate_hz < 0.5) {
     table.fail(table.line_of("dwell"), "dwell", "is too short to hold a sample", "raise dwell, or the rate");
   }
+  for (const char* const key : {"vibration", "rest_vibration"}) {
+    if (source.field != FieldKind::gravity && table.has(key))
+      table.fail(table.line_of(key), key, "is an acceleration, which only accelerometers feel",
+                 "remove it; a magnetic field beside the Earth's is [interference]");
+  }
   out.vibration_mps2 =
       within(table, "vibration", table.quantity(Quantity::acceleration, "vibration", out.vibration_mps2), 0.0, 1e6,
              "give the rms per axis while moving, 0 or more, as in \"0.1 g0\"");

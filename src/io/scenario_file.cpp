@@ -15,9 +15,9 @@ namespace io {
 namespace {
 
 const std::vector<std::string>& known_sections() {
-  static const std::vector<std::string> names = {"name",        "array", "tool",     "seed",         "gravity",
-                                                 "rate",        "start", "truth",    "sensor_truth", "attitude",
-                                                 "temperature", "noise", "rotation", "depth",        "fault"};
+  static const std::vector<std::string> names = {
+      "name",        "array", "tool",     "seed",  "gravity", "rate",  "start", "truth", "sensor_truth", "attitude",
+      "temperature", "noise", "rotation", "depth", "fault",   "group", "field", "dip",   "interference"};
   return names;
 }
 
@@ -39,47 +39,34 @@ ArrayFile paper_array(const TomlTable& top) {
 }
 
 /// The array file that the scenario names, beside the scenario unless the path is absolute.
-ArrayFile named_array(const TomlTable& top) {
+ArrayFile named_array(const TomlTable& top, const FieldLookup& lookup) {
   const std::string given = top.text("array", "");
-  const std::filesystem::path path = std::filesystem::path(top.file()).parent_path() / given;
+  const std::string path = (std::filesystem::path(top.file()).parent_path() / given).string();
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    top.fail(top.line_of("array"), "array", "there is no file " + in_quotes(path.string()),
+  const auto exists = [&error](const std::string& name) { return std::filesystem::exists(name, error); };
+  if (!exists(path) && !exists(path.substr(0, path.rfind('#')))) {
+    top.fail(top.line_of("array"), "array", "there is no file " + in_quotes(path),
              "give the path of the array file, relative to the scenario file");
   }
-  FileExpected<ArrayFile> array = read_array_file(path.string());
+  FileExpected<ArrayFile> array = read_array_file(path, lookup);
   if (!array) throw Refusal(array.error());
   return *std::move(array);
 }
 
 /// [array]: what an array file would hold, in the scenario itself.
-ArrayFile inline_array(const TomlTable& top, const TomlNode& node) {
-  return array_of(node, toml_text(node), top.file());
+ArrayFile inline_array(const TomlTable& top, const TomlNode& node, const FieldLookup& lookup) {
+  return array_of(node, toml_text(node), top.file(), lookup);
 }
 
-ArrayFile read_tool(const TomlTable& top) {
+ArrayFile read_tool(const TomlTable& top, const FieldLookup& lookup) {
   const TomlNode* array = top.find("array");
   if (array != nullptr && top.has("tool"))
     top.fail(top.line_of("tool"), "tool", "and array both name the sensors", "keep one of the two");
-  if (array != nullptr) return array->kind == TomlNode::Kind::table ? inline_array(top, *array) : named_array(top);
+  if (array != nullptr)
+    return array->kind == TomlNode::Kind::table ? inline_array(top, *array, lookup) : named_array(top, lookup);
   if (top.has("tool")) return paper_array(top);
   top.fail(0, "array", "is missing",
            "name the sensors: array = \"my_tool.toml\" (an array file), or tool = \"paper\" for the paper's tool");
-}
-
-std::vector<scenario::Fault> read_faults(const ScenarioSource& source, const ArrayFile& array) {
-  std::vector<scenario::Fault> faults;
-  const scenario::FaultContext context = fault_context(array);
-  for (const TomlTable& table : tables_of(source, "fault", {"spec"})) {
-    const std::string text = table.need_text("spec", "write the fault and its onset: spec = \"a2:stuck=0V@12s\"");
-    const tl::expected<std::vector<scenario::Fault>, std::string> named = scenario::parse_faults(text, context);
-    if (!named) {
-      const auto [what, remedy] = without_remedy(named.error());
-      table.fail(table.line_of("spec"), "spec", what, remedy);
-    }
-    faults.insert(faults.end(), named->begin(), named->end());
-  }
-  return faults;
 }
 
 /// What the log could not show, and its reader would therefore take for something else.
@@ -110,21 +97,29 @@ void refuse_what_the_log_cannot_hold(const TomlTable& top, const ScenarioSource&
   }
 }
 
-ScenarioFile parsed(const TomlNode& root, const std::string& path) {
-  const ScenarioSource source{root, path};
+/// The simulator has the last word; what is said before is said with the line.
+void refuse_unplayable(const scenario::Scenario& scenario, const std::string& path) {
+  const tl::expected<scenario::Simulator, std::string> playable = scenario::Simulator::make(scenario);
+  if (playable) return;
+  const auto [what, remedy] = without_remedy(playable.error());
+  throw Refusal(FileError{path, 0, "", what, remedy});
+}
+
+ScenarioFile parsed(const TomlNode& root, const std::string& path, const FieldLookup& lookup) {
   const TomlTable top(root, path, "", known_sections());
   ScenarioFile out;
   out.path = path;
   const std::string file_name = last_part(path);
   out.name = top.text("name", file_name.substr(0, file_name.rfind('.')));
-  out.array = read_tool(top);
+  out.array = read_tool(top, lookup);
+  const ScenarioSource source{root, path, out.array.field, ""};
   const TomlNode* array = top.find("array");
   out.array_inline = array != nullptr && array->kind == TomlNode::Kind::table;
   if (!out.array_inline) out.array_path = top.text("array", "");
   scenario::Scenario& scenario = out.scenario;
   const double declared_hz = out.array.input.rate_hz;
   scenario.seed = read_seed(top, "seed", scenario.seed);
-  scenario.gravity_mps2 = read_gravity_value(top, out.array.gravity.g_mps2);
+  if (out.array.field == FieldKind::gravity) scenario.gravity_mps2 = read_gravity_value(top, out.array.gravity.g_mps2);
   scenario.rate_hz =
       within(top, "rate", top.quantity(Quantity::rate, "rate", declared_hz > 0.0 ? declared_hz : scenario.rate_hz),
              1e-6, 1e9, "give the samples per second, as in rate = \"100 Hz\"");
@@ -136,21 +131,20 @@ ScenarioFile parsed(const TomlNode& root, const std::string& path) {
   scenario.noise = read_noise(source);
   scenario.turning = read_rotation(source);
   scenario.depth = read_depth(source);
-  scenario.faults = read_faults(source, out.array);
+  read_sensed(source, out.array, scenario);
   scenario.tag_rolls = scenario.tag_stations && !out.array.input.roll_group_column.empty();
   refuse_what_the_log_cannot_hold(top, source, out.array, scenario);
-  // The simulator has the last word; what is said above is said with the line.
-  const tl::expected<scenario::Simulator, std::string> playable = scenario::Simulator::make(scenario);
-  if (!playable) {
-    const auto [what, remedy] = without_remedy(playable.error());
-    throw Refusal(FileError{path, 0, "", what, remedy});
-  }
+  out.groups = read_scenario_groups(source, out);
+  read_faults(source, out);
+  refuse_unplayable(scenario, path);
+  for (const ScenarioFile::Group& group : out.groups) refuse_unplayable(group.scenario, path);
   return out;
 }
 
 }  // namespace
 
-FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const std::string& path) {
+FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const std::string& path,
+                                               const FieldLookup& lookup) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     return tl::unexpected<FileError>(
         FileError{path, 0, "", "the file is empty",
@@ -161,7 +155,7 @@ FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const st
     const bool json = text[text.find_first_not_of(" \t\r\n")] == '{';
     const FileExpected<TomlNode> root = json ? parse_json_tree(text, path) : parse_toml(text, path);
     if (!root) return tl::unexpected<FileError>(root.error());
-    return parsed(*root, path);
+    return parsed(*root, path, lookup);
   } catch (const Refusal& refusal) {
     return tl::unexpected<FileError>(refusal.error());
   } catch (const std::exception& error) {
@@ -170,10 +164,10 @@ FileExpected<ScenarioFile> parse_scenario_text(const std::string& text, const st
   }
 }
 
-FileExpected<ScenarioFile> read_scenario(const std::string& path) {
+FileExpected<ScenarioFile> read_scenario(const std::string& path, const FieldLookup& lookup) {
   const FileExpected<std::string> text = read_file(path);
   if (!text) return tl::unexpected<FileError>(text.error());
-  return parse_scenario_text(*text, path);
+  return parse_scenario_text(*text, path, lookup);
 }
 
 scenario::FaultContext fault_context(const ArrayFile& array) {

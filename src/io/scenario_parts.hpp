@@ -14,8 +14,10 @@ namespace io {
 
 /// What every section is read from.
 struct ScenarioSource {
-  const TomlNode& root;
+  const TomlNode& root;  ///< of the file, or of one of its [[group]]s
   const std::string& file;
+  FieldKind field = FieldKind::gravity;  ///< that the sensors measure: units of accelerations
+  std::string prefix;                    ///< of its sections in messages: "group[1]."
 };
 
 /// [attitude]: the law, and the times and the shaking around it. `out.rate_hz` must be set.
@@ -28,6 +30,17 @@ scenario::TemperatureLaw read_temperature(const ScenarioSource& source, double r
 scenario::NoiseLaw read_noise(const ScenarioSource& source);
 scenario::Turning read_rotation(const ScenarioSource& source);
 scenario::DepthLaw read_depth(const ScenarioSource& source);
+
+/// [interference]; in the inside unit of magnetic groups.
+scenario::Interference read_interference(const ScenarioSource& source);
+
+/// The true length and the dip of the field of a magnetic group, and what else makes `out` one of `array`'s kind.
+/// `source` is the file where it is of this group alone, else its [[group]]. Attitude, rate and times must be set.
+void read_sensed(const ScenarioSource& source, const ArrayFile& array, scenario::Scenario& out);
+/// A scenario for each group of a whole tool, from that of its accelerometers, without faults.
+std::vector<ScenarioFile::Group> read_scenario_groups(const ScenarioSource& source, const ScenarioFile& tool);
+/// Every [[fault]], each with the sensors that it names.
+void read_faults(const ScenarioSource& source, ScenarioFile& out);
 
 // ---- what the sections share ---------------------------------------------------------------------
 

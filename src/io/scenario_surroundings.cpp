@@ -88,6 +88,28 @@ scenario::Turning read_rotation(const ScenarioSource& source) {
   return turning;
 }
 
+scenario::Interference read_interference(const ScenarioSource& source) {
+  const TomlTable table = section_of(source, "interference", {"vector", "frame", "from", "until"});
+  scenario::Interference out;
+  if (source.root.find("interference") == nullptr) return out;
+  const std::string form = "give the field beside the Earth's: vector = [\"500 nT\", \"0 nT\", \"-200 nT\"]";
+  const TomlNode& list = table.need("vector", form);
+  if (list.kind != TomlNode::Kind::array || list.items.size() != 3)
+    table.fail(list.line, "vector", "must be a list of three magnetic fields", form);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string name = "vector[" + std::to_string(k + 1) + "]";
+    const std::string text = table.text_with_unit(list.items[k], name.c_str(), "uT, nT, mT, G");
+    out.field_mps2[k] =
+        table.checked(parse_quantity(Quantity::acceleration, text, source.field), name.c_str(), list.items[k]);
+  }
+  out.of_tool = table.choice("frame", {"tool", "ground"}, 0) == 0;
+  const std::string times = "give a time of the log, as in \"12 s\"; `until` must not be before `from`";
+  out.from_s = within(table, "from", table.quantity(Quantity::time, "from", 0.0), -1e12, 1e12, times);
+  out.until_s = table.quantity(Quantity::time, "until", out.until_s);
+  if (!(out.until_s >= out.from_s)) table.fail(table.line_of("until"), "until", "is before from", times);
+  return out;
+}
+
 scenario::DepthLaw read_depth(const ScenarioSource& source) {
   const TomlTable table = section_of(source, "depth", {"station_spacing", "gravity", "heat"});
   scenario::DepthLaw depth;

@@ -18,7 +18,7 @@ TomlTable section_of(const ScenarioSource& source, const char* name, const std::
     return node;
   }();
   const TomlNode* node = source.root.find(name);
-  return {node == nullptr ? nothing : *node, source.file, name, known};
+  return {node == nullptr ? nothing : *node, source.file, source.prefix + name, known, source.field};
 }
 
 std::vector<TomlTable> tables_of(const ScenarioSource& source, const char* name,
@@ -31,7 +31,8 @@ std::vector<TomlTable> tables_of(const ScenarioSource& source, const char* name,
                             std::string("write [[") + name + "]] with two brackets"});
   }
   for (std::size_t i = 0; i < list->items.size(); ++i) {
-    tables.emplace_back(list->items[i], source.file, std::string(name) + "[" + std::to_string(i + 1) + "]", known);
+    tables.emplace_back(list->items[i], source.file, source.prefix + name + "[" + std::to_string(i + 1) + "]", known,
+                        source.field);
   }
   return tables;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/io/hash.hpp"
 #include "scenario_parts.hpp"
 #include "text_tools.hpp"
 
@@ -27,14 +28,39 @@ const std::vector<std::string>& sensor_keys() {
   return names;
 }
 
-Tool drawn(const TomlTable& table, const Datasheet& datasheet) {
+/// How far a sensor of this field lies from its datasheet where the scenario does not say. A gyro stays within what its
+/// monitor takes for healthy: the least of its group.
+TruthSpans usual_spans(const ArrayFile& array) {
+  TruthSpans out;
+  if (array.field == FieldKind::magnetic) out.bias_mps2 = 0.5 * kInside_per_ut;
+  if (array.field != FieldKind::rate) return out;
+  out.bias_mps2 = array.rate.errors[0].bias_radps;
+  out.scale = array.rate.errors[0].scale;
+  out.axis_rad = array.rate.errors[0].axis_rad;
+  for (std::size_t i = 1; i < static_cast<std::size_t>(array.array.size()); ++i) {
+    const RateErrors& e = array.rate.errors[i];
+    out.bias_mps2 = std::min(out.bias_mps2, e.bias_radps);
+    out.scale = std::min(out.scale, e.scale);
+    out.axis_rad = std::min(out.axis_rad, e.axis_rad);
+  }
+  out.axis_rad /= std::sqrt(2.0);  // of two turns, about two directions
+  return out;
+}
+
+/// Groups of one tool are drawn apart.
+std::uint64_t part_of_group(const ArrayFile& array) {
+  return array.group.empty() ? kTruthPart : fnv1a(array.group.data(), array.group.size());
+}
+
+Tool drawn(const TomlTable& table, const ArrayFile& array) {
+  const Datasheet& datasheet = array.datasheet;
   const std::vector<std::string> laws = {"uniform", "normal", "none"};
   const int law = table.choice("law", laws, 0);
   if (law == 2) {
     refuse_unused(table, "none", {"law"});
     return scenario::perfect_tool(datasheet);
   }
-  TruthSpans spans;
+  TruthSpans spans = usual_spans(array);
   spans.shape = law == 1 ? TruthSpans::Shape::normal : TruthSpans::Shape::uniform;
   const auto span = [&table](const char* key, Quantity quantity, double fallback, double high, const char* example) {
     return within(table, key, table.quantity(quantity, key, fallback), 0.0, high,
@@ -43,7 +69,8 @@ Tool drawn(const TomlTable& table, const Datasheet& datasheet) {
   spans.bias_mps2 = span("bias", Quantity::acceleration, spans.bias_mps2, 1e3, "20 mg0");
   spans.scale = span("scale", Quantity::ratio, spans.scale, 0.5, "2 %");
   spans.axis_rad = span("tilt", Quantity::angle, spans.axis_rad, kPi, "2 deg");
-  return scenario::draw_tool(datasheet, scenario::derive_seed(read_seed(table, "seed", 1), kTruthPart), spans);
+  return scenario::draw_tool(datasheet, scenario::derive_seed(read_seed(table, "seed", 1), part_of_group(array)),
+                             spans);
 }
 
 const TomlNode* list_at(const TomlTable& table, const char* key, std::size_t least, std::size_t most,
@@ -86,9 +113,10 @@ void read_slopes(const TomlTable& table, const RawUnit& unit, SensorCoefficients
       if (item.kind != TomlNode::Kind::text)
         table.fail(list->line, name, std::string("is ") + item.kind_name() + ", must be a string with a unit", form);
       const int order = static_cast<int>(k);
-      terms[k] = of_scale ? scale_slope(table, name, *list, item.text, order, unit, out.scale[0])
-                          : table.checked(parse_temperature_slope(Quantity::acceleration, item.text, order),
-                                          name.c_str(), *list);
+      terms[k] =
+          of_scale ? scale_slope(table, name, *list, item.text, order, unit, out.scale[0])
+                   : table.checked(parse_temperature_slope(Quantity::acceleration, item.text, order, table.field_of()),
+                                   name.c_str(), *list);
     }
   }
 }
@@ -151,7 +179,7 @@ void read_sensor(const TomlTable& table, int sensor, const RawUnit& unit, Tool& 
   if (table.has("axis")) tool.axes[s] = read_axis(table);
   read_scale(table, unit, c);
   if (const TomlNode* bias = table.find("bias"); bias != nullptr) {
-    const std::string text = table.text_with_unit(*bias, "bias", accepted_raw_units());
+    const std::string text = table.text_with_unit(*bias, "bias", accepted_raw_units(table.field_of()));
     c.bias[0] = table.checked(parse_as_acceleration(text, unit, c.scale[0]), "bias", *bias);
   }
   read_slopes(table, unit, c);
@@ -163,7 +191,7 @@ void read_sensor(const TomlTable& table, int sensor, const RawUnit& unit, Tool& 
 }  // namespace
 
 Tool read_truth(const ScenarioSource& source, const ArrayFile& array) {
-  Tool tool = drawn(section_of(source, "truth", truth_keys()), array.datasheet);
+  Tool tool = drawn(section_of(source, "truth", truth_keys()), array);
   std::vector<std::string> ids;
   ids.reserve(static_cast<std::size_t>(array.array.size()));
   for (int i = 0; i < array.array.size(); ++i) ids.emplace_back(array.array.row(i).id.data());

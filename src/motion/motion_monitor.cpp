@@ -3,22 +3,13 @@
 #include <cmath>
 #include <new>
 
-#include "plumb/numeric/tails.hpp"
+#include "plumb/motion/motion_quantile.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
 
 constexpr int kBlockScale = 2;  // that of MotionVerdict::block
-
-/// Of a test that is made once per block pair: the hourly rate over all sets and both rotation terms, and over the
-/// comparison of two gyros, in all scales.
-double quantile_of(const MotionSetup& setup, int sets) noexcept {
-  double tests_per_hour = 0.0;
-  for (const int samples : setup.block_samples)
-    tests_per_hour += (2.0 * sets + 1.0) * 3600.0 / (samples * setup.sample_period_s);
-  return normal_tail_quantile(0.5 * setup.false_alarms_per_hour / (tests_per_hour > 1.0 ? tests_per_hour : 1.0));
-}
 
 }  // namespace
 
@@ -42,7 +33,7 @@ Expected<void> MotionMonitor::configure(const SensorArray& array, const MotionSe
   setup_ = setup;
   new (&sets_) MotionSets(array);
   new (&window_) MotionWindow(array.size(), setup.gyros, setup.sample_period_s, setup.block_samples);
-  noise_quantile_ = quantile_of(setup, sets_.size());
+  noise_quantile_ = motion_noise_quantile(setup, sets_.size());
   in_service_ = array.all();
   configured_ = true;
   refit();

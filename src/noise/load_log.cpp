@@ -22,6 +22,15 @@ tl::unexpected<io::FileError> refuse(std::string file, std::string field, std::s
       io::FileError{std::move(file), 0, std::move(field), std::move(what), std::move(remedy), code});
 }
 
+const char* unit_of_readings(io::FieldKind field) {
+  switch (field) {
+    case io::FieldKind::gravity: return "m/s^2";
+    case io::FieldKind::magnetic: return "nT";
+    case io::FieldKind::rate: return "rad/s";
+  }
+  return "";
+}
+
 std::string joined(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 40;
   std::string out;
@@ -120,7 +129,7 @@ io::FileExpected<LoadedLog> load_any_csv(const std::string& path, const LoadOpti
   for (std::size_t c = 0; c < csv->names.size(); ++c) {
     if (!chosen(options, csv->names[c])) continue;
     ColumnUnit one = unit_of_name(csv->names[c]);
-    if (unit) one = {unit->name, unit->kind == io::RawUnit::Kind::acceleration, true};
+    if (unit) one = {unit->name, unit->kind == io::RawUnit::Kind::acceleration, true, io::FieldKind::gravity};
     if (unit && one.acceleration) {
       one.name = "m/s^2";
       for (double& y : csv->values[c]) y *= unit->base_per_unit;
@@ -150,13 +159,14 @@ io::FileExpected<LoadedLog> load_described_log(const std::string& path, const Lo
   out.time_column = array.input.time_column;
   out.log.rate_hz = array.input.rate_hz;
   std::vector<int> sensors;
-  std::vector<double> unit_per_mps2;
+  std::vector<double> raw_per_unit;
+  const double unit_per_inside = io::units_of(array.field).json_per_inside;
   for (int i = 0; i < array.array.size(); ++i) {
     if (!chosen(options, ids[static_cast<std::size_t>(i)])) continue;
     sensors.push_back(i);
-    unit_per_mps2.push_back(array.datasheet.sensor[static_cast<std::size_t>(i)].coefficients.scale[0]);
-    out.units.push_back({"m/s^2", true, true});
-    out.declared.push_back(array.array.sigma_mps2(i));
+    raw_per_unit.push_back(array.datasheet.sensor[static_cast<std::size_t>(i)].coefficients.scale[0] / unit_per_inside);
+    out.units.push_back({unit_of_readings(array.field), true, true, array.field});
+    out.declared.push_back(array.array.sigma_mps2(i) * unit_per_inside);
     out.log.columns.push_back({ids[static_cast<std::size_t>(i)], {}});
   }
   Sample sample;
@@ -170,7 +180,7 @@ io::FileExpected<LoadedLog> load_described_log(const std::string& path, const Lo
     for (std::size_t c = 0; c < sensors.size(); ++c) {
       const bool delivered = sample.delivered.has(sensors[c]);
       out.log.columns[c].readings.push_back(
-          delivered ? sample.raw[static_cast<std::size_t>(sensors[c])] / unit_per_mps2[c] : kNoReading);
+          delivered ? sample.raw[static_cast<std::size_t>(sensors[c])] / raw_per_unit[c] : kNoReading);
     }
   }
   if (status == io::LogReader::Next::error) return tl::unexpected<io::FileError>(reader->error());

@@ -204,6 +204,7 @@ void PaperMonitor::publish(const Sample& sample, bool ticked) noexcept {
   Verdict& v = verdict_;
   v.time_s = sample.time_s;
   v.tick = ticked && !moving_;
+  v.block_fill = block_.size();
   v.state = state_of(mode_);
   // The paper's method takes the length for gravity's and the calibration for true whatever the host allows for.
   v.qualifiers = static_cast<std::uint16_t>(

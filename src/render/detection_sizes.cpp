@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "plumb/render/field_words.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "size_fields.hpp"
 
@@ -56,8 +57,9 @@ std::array<std::string, 2> meaning_of(double missed, double false_alarms, double
 
 }  // namespace
 
-std::string sizes_text(const SizeTable& table, int sensors) {
+std::string sizes_text(const SizeTable& table, int sensors, io::FieldKind field) {
   const TestSettings& s = table.settings;
+  const double fine = io::units_of(field).fine_per_inside;
   std::string out =
       fmt::format("\ndetection sizes, one block of {:.0f} samples at rest, the worst sensor\n", s.samples);
   const std::vector<int> widths =
@@ -67,16 +69,16 @@ std::string sizes_text(const SizeTable& table, int sensors) {
   for (const auto& row : kConditions) {
     const findings::DetectionSizes& sizes = sizes_at(table, row.condition);
     const auto instead = [&sizes](std::size_t k) { return is_beyond(sizes, k) ? kBeyondFullScale : nullptr; };
-    out += fmt::format("  {:<18}", row.words) + text_row_or(kSizeFields, widths, instead, sizes);
+    out += fmt::format("  {:<18}", row.words) + text_row_or(kSizeFields, widths, instead, fine, sizes);
   }
   for (const std::string& one :
        meaning_of(s.missed_detection, s.false_alarm_rate, s.rejection_rate, s.isolation_attitudes))
     out += "  " + one + "\n";
   out +=
       fmt::format("  as stated: drift of {:.3g} mg0 and acceleration of {:.3g} mg0 allowed for; else acceleration 0\n",
-                  in_mg0(table.tolerance_mps2(SizeCondition::as_stated, sensors)),
-                  in_mg0(table.acceleration_mps2(SizeCondition::as_stated)));
-  return out + "  " + visited_words(table) + "\n";
+                  fine * table.tolerance_mps2(SizeCondition::as_stated, sensors),
+                  fine * table.acceleration_mps2(SizeCondition::as_stated));
+  return in_field_words(out + "  " + visited_words(table) + "\n", field);
 }
 
 Json sizes_json(const SizeTable& table, int sensors) {

@@ -78,9 +78,11 @@ std::string text_head(const Table& table, Line line, const std::string& instead 
   return out + "\n";
 }
 
-/// `instead(k)` is what stands in place of figure k; null: the figure.
+/// `instead(k)` is what stands in place of figure k; null: the figure. `fine`: what a figure in mg0 is multiplied by
+/// instead, the fine units of 1 inside of the field of the array.
 template <class Table, class Instead, class... Of>
-std::string text_row_or(const Table& table, const std::vector<int>& widths, Instead instead, const Of&... of) {
+std::string text_row_or(const Table& table, const std::vector<int>& widths, Instead instead, double fine,
+                        const Of&... of) {
   std::string out;
   std::size_t k = 0;
   for (const auto& field : table) {
@@ -88,9 +90,9 @@ std::string text_row_or(const Table& table, const std::vector<int>& widths, Inst
     const int width = widths.empty() ? field.width : widths[k];
     ++k;
     if (field.above == nullptr) continue;
-    const double value = field.value(of...);
+    const double value = field.value(of...) * (field.of_text == kMg0 ? fine : field.of_text);
     const std::string figure =
-        std::isfinite(value) ? unsigned_zero(fmt::format(fmt::runtime(field.format), value * field.of_text)) : "-";
+        std::isfinite(value) ? unsigned_zero(fmt::format(fmt::runtime(field.format), value)) : "-";
     out += fmt::format(" {:>{}}", words != nullptr ? std::string(words) : figure, width);
   }
   return out + "\n";
@@ -99,7 +101,7 @@ std::string text_row_or(const Table& table, const std::vector<int>& widths, Inst
 template <class Table, class... Of>
 std::string text_row(const Table& table, const Of&... of) {
   return text_row_or(
-      table, std::vector<int>(), [](std::size_t) -> const char* { return nullptr; }, of...);
+      table, std::vector<int>(), [](std::size_t) -> const char* { return nullptr; }, kMg0, of...);
 }
 
 }  // namespace render

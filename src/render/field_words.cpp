@@ -35,6 +35,8 @@ std::string in_field_words(std::string text, io::FieldKind field) {
   for (const auto& [word, by] :
        {std::pair<std::string_view, std::string_view>{"stability 0.2 mg0", "stability 7.85 nT"},
         {"m/s^2 for mae", "units of 4 uT for mae"},
+        {"acceleration of", "disturbance of"},
+        {"acceleration 0", "disturbance 0"},
         {"mg0 = 0.001 x 9.80665 m/s^2", "nT = 0.001 uT"},
         {"[input]", "[[group]]"},
         {"[monitor]", "[group.monitor]"},

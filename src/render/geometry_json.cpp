@@ -3,6 +3,7 @@
 
 #include "geometry_fields.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/io/field_json.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/detection_sizes.hpp"
 #include "plumb/render/geometry_report.hpp"
@@ -78,13 +79,18 @@ Json one_attitude_json(const GeometryStudy& study) {
 }  // namespace
 
 std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& study) {
+  return io::in_field_units(geometry_document(subject, study), subject.field()).dump(2) + "\n";
+}
+
+Json geometry_document(const GeometrySubject& subject, const GeometryStudy& study) {
   const SensorArray& array = subject.array;
   const FiguresOfMerit& f = study.merit;
   Json out;
   out["name"] = subject.name;
   out["calibrated"] = subject.calibrated;
   if (subject.file) {
-    out["reads"] = subject.file->datasheet.reads == Reads::gravity ? "gravity" : "specific-force";
+    if (subject.file->field == io::FieldKind::gravity)
+      out["reads"] = subject.file->datasheet.reads == Reads::gravity ? "gravity" : "specific-force";
     out["unit"] = subject.file->input.unit.name;
   }
   out["gravity_mps2"] = subject.gravity.g_mps2;
@@ -105,10 +111,12 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
   out["critical_sensors"] = ids_of(critical_sensors(array, array.all()), array);
   out["worst_case"] = worst_json(study);
   out["detection_sizes"] = sizes_json(study.sizes, array.size());
+  const double as_mg0 =
+      subject.field() == io::FieldKind::gravity ? 1.0 : in_mg0(1.0 / io::units_of(subject.field()).fine_per_inside);
   Json levels = Json::array();
   for (const auto& l : study.levels)
-    levels.push_back(
-        io::object({{"sigma_mg0", l.sigma_mg0}, {"one_sample_deg", l.one_sample_deg}, {"block_deg", l.block_deg}}));
+    levels.push_back(io::object(
+        {{"sigma_mg0", as_mg0 * l.sigma_fine}, {"one_sample_deg", l.one_sample_deg}, {"block_deg", l.block_deg}}));
   out["protection_levels"] = std::move(levels);
   out["one_attitude"] = one_attitude_json(study);
   out["common_bias"] = io::object({{"as_mounted", bias_json(study.common)},
@@ -131,7 +139,7 @@ std::string geometry_json(const GeometrySubject& subject, const GeometryStudy& s
                                   {"near_singular", !t.votes}}));
   }
   out["triples"] = std::move(triples);
-  return out.dump(2) + "\n";
+  return out;
 }
 
 }  // namespace render

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "chart.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 
 namespace plumb {
@@ -23,6 +24,8 @@ std::string quoted(std::string text) {
   return text;
 }
 
+bool is_magnetic(const GeometryPictures& p) { return p.field == io::FieldKind::magnetic; }
+
 /// Two maps, one above the other.
 std::string map_script(const GeometryPictures& p) {
   std::string out = chart_head(kMap, 1000, 900);
@@ -33,6 +36,7 @@ std::string map_script(const GeometryPictures& p) {
       "set xtics 45\nset ytics 30\nset palette defined (0 '#31406f', 0.35 '#2f8aa0', 0.7 '#d9b44a', 1 '#c53a3a')\n"
       "set ylabel 'inclination, deg'\n",
       -half, 360.0 + half, 180.0 + half, -half);
+  const char* const fault = is_magnetic(p) ? "fault, uT" : "fault, g0";
   const auto panel = [&out](double top, double bottom, const std::string& title, const char* unit, int column) {
     out += fmt::format(
         "set tmargin at screen {}\nset bmargin at screen {}\nset label 1 '{}' at graph 0, graph 1 offset 0,0.7 left "
@@ -42,9 +46,9 @@ std::string map_script(const GeometryPictures& p) {
   };
   out += "set format x ''\n";
   panel(0.93, 0.56, quoted(p.name) + ": any larger fault is isolated by the length of gravity at this attitude alone",
-        "fault, g0", 3);
+        fault, 3);
   out += "set format x '%g'\nset xlabel 'toolface, deg'\n";
-  panel(0.47, 0.10, "nearest mirror: the least fault that has a second explanation (0: blind)", "fault, g0", 4);
+  panel(0.47, 0.10, "nearest mirror: the least fault that has a second explanation (0: blind)", fault, 4);
   return out + "unset multiplot\nunset output\n";
 }
 
@@ -59,15 +63,17 @@ std::string protection_script(const GeometryPictures& p) {
              "plot 'geometry-protection.csv' skip 1 using 1:2 with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '#d0553c' "
              "title 'one sample', '' skip 1 using 1:3 with linespoints pt 7 ps 0.6 lw 1.4 lc rgb '#2f78b7' title "
              "'block of {2}'\nunset output\n",
-             quoted(p.name), p.sigma_mg0, p.samples);
+             quoted(p.name), p.sigma_fine, p.samples);
 }
 
 }  // namespace
 
 GeometryPictures geometry_pictures(const findings::GeometrySubject& subject, const findings::GeometryStudy& study) {
-  double sigma_mg0 = 0.0;
-  for (int i = 0; i < subject.array.size(); ++i) sigma_mg0 = std::fmax(sigma_mg0, in_mg0(subject.array.sigma_mps2(i)));
-  return {subject.name, static_cast<int>(subject.settings.samples), sigma_mg0, study.map, study.levels};
+  const double fine = io::units_of(subject.field()).fine_per_inside;
+  double sigma = 0.0;
+  for (int i = 0; i < subject.array.size(); ++i) sigma = std::fmax(sigma, subject.array.sigma_mps2(i));
+  return {subject.name, subject.field(), static_cast<int>(subject.settings.samples),
+          fine * sigma, study.map,       study.levels};
 }
 
 std::vector<std::string> geometry_picture_names(const GeometryPictures& pictures) {
@@ -81,21 +87,24 @@ std::vector<PlotFile> geometry_plot_files(const GeometryPictures& pictures) {
   std::string script = "# Draws the pictures of a geometry. Run: gnuplot geometry.gp\n";
   std::vector<PlotFile> out;
   if (!pictures.map.empty()) {
-    std::string csv = "inclination_deg,toolface_deg,guaranteed_above_g0,nearest_mirror_g0,not_guaranteed_sensors\n";
+    const char* const unit = is_magnetic(pictures) ? "ut" : "g0";
+    const double per_g0 = is_magnetic(pictures) ? kG0_mps2 * io::units_of(pictures.field).coarse_per_inside : 1.0;
+    std::string csv = fmt::format(
+        "inclination_deg,toolface_deg,guaranteed_above_{0},nearest_mirror_{0},not_guaranteed_sensors\n", unit);
     for (const GeometryPictures::Point& at : pictures.map)
-      csv += fmt::format("{},{},{:.6g},{:.6g},{}\n", at.inclination_deg, at.toolface_deg, at.guaranteed_above_g0,
-                         at.nearest_mirror_g0, at.not_guaranteed_sensors);
+      csv += fmt::format("{},{},{:.6g},{:.6g},{}\n", at.inclination_deg, at.toolface_deg,
+                         per_g0 * at.guaranteed_above_g0, per_g0 * at.nearest_mirror_g0, at.not_guaranteed_sensors);
     out.push_back({"geometry-attitudes.csv", std::move(csv)});
     script += map_script(pictures);
   }
   if (!pictures.levels.empty()) {
-    std::string csv = "sigma_mg0,one_sample_deg,block_deg\n";
+    std::string csv = fmt::format("sigma_{},one_sample_deg,block_deg\n", is_magnetic(pictures) ? "nt" : "mg0");
     for (const GeometryPictures::Level& at : pictures.levels)
-      csv += fmt::format("{:.6g},{:.6g},{:.6g}\n", at.sigma_mg0, at.one_sample_deg, at.block_deg);
+      csv += fmt::format("{:.6g},{:.6g},{:.6g}\n", at.sigma_fine, at.one_sample_deg, at.block_deg);
     out.push_back({"geometry-protection.csv", std::move(csv)});
     script += protection_script(pictures);
   }
-  out.push_back({kGeometryScript, std::move(script)});
+  out.push_back({kGeometryScript, in_field_words(std::move(script), pictures.field)});
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/render/calibration_notes.hpp"
 #include "plumb/render/detection_sizes.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/figures.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
@@ -30,32 +31,43 @@ constexpr std::size_t kMostListed = 12;
 
 std::string line(const char* what, const std::string& value) { return fmt::format("{:<44} {}\n", what, value); }
 
+bool is_magnetic(const GeometrySubject& subject) { return subject.field() == io::FieldKind::magnetic; }
+
+const io::FieldUnits& units_of(const GeometrySubject& subject) { return io::units_of(subject.field()); }
+
 std::string reading_text(const GeometrySubject& subject, const GeometryStudy& study) {
   const bool file = subject.file != nullptr;
   std::string out = fmt::format("{}: {}{}\n", subject.name, count_text(subject.array.size(), "sensor"),
                                 subject.calibrated ? ", axes and uncertainty from the calibration" : "");
   if (file) {
     const io::ArrayFile& f = *subject.file;
-    out += fmt::format("reads {}; the log is in {}; gravity {:.5f} m/s^2 (1 sigma {:.3f} mg0)\n",
-                       f.datasheet.reads == Reads::gravity ? "gravity (a sensor that points down counts up)"
-                                                           : "specific force (a sensor that points up counts up)",
-                       f.input.unit.name, subject.gravity.g_mps2, in_mg0(subject.gravity.sigma_mps2));
+    const char* const reads = is_magnetic(subject) ? "along the field (a sensor that points along it counts up)"
+                              : f.datasheet.reads == Reads::gravity
+                                  ? "gravity (a sensor that points down counts up)"
+                                  : "specific force (a sensor that points up counts up)";
+    out += fmt::format("reads {}; the log is in {}; gravity {:.5f} m/s^2 (1 sigma {:.3f} mg0)\n", reads,
+                       f.input.unit.name, units_of(subject).coarse_per_inside * subject.gravity.g_mps2,
+                       units_of(subject).fine_per_inside * subject.gravity.sigma_mps2);
   }
   out += fmt::format("\n  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>32}\n", "sensor", "x", "y", "z", "noise",
-                     file ? "expected in the log, tool at" : "expected, g0, tool at");
-  out += fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>10} {:>10} {:>10}\n", "", "", "", "", "mg0", "vertical",
-                     "horiz. 0", "horiz. 90");
+                     is_magnetic(subject) ? "expected in the log, field along"
+                     : file               ? "expected in the log, tool at"
+                                          : "expected, g0, tool at");
+  out += fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9}   {:>10} {:>10} {:>10}\n", "", "", "", "", "mg0",
+                     is_magnetic(subject) ? "z" : "vertical", is_magnetic(subject) ? "-y" : "horiz. 0",
+                     is_magnetic(subject) ? "-x" : "horiz. 90");
   for (int i = 0; i < subject.array.size(); ++i) {
     const Vec3& h = subject.array.axis(i);
     out += fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9.4f}  ", study.sensors[at(i)].id, fixed_words(h[0], 5),
-                       fixed_words(h[1], 5), fixed_words(h[2], 5), in_mg0(subject.array.sigma_mps2(i)));
+                       fixed_words(h[1], 5), fixed_words(h[2], 5),
+                       units_of(subject).fine_per_inside * subject.array.sigma_mps2(i));
     const ExpectedReading& e = study.sensors[at(i)].expected;
     for (std::size_t a = 0; a < 3; ++a)
       out +=
           fmt::format(" {:>10}", unsigned_zero(fmt::format("{:.4g}", file ? e.raw[a] : g0_from_mps2(e.down_mps2[a]))));
     out += "\n";
   }
-  return out + "  (vertical: z down; horiz. 0 and 90: z level, toolface 0 and 90 deg)\n";
+  return is_magnetic(subject) ? out : out + "  (vertical: z down; horiz. 0 and 90: z level, toolface 0 and 90 deg)\n";
 }
 
 std::string merit_text(const GeometrySubject& subject, const GeometryStudy& study) {
@@ -107,7 +119,7 @@ std::string threshold_text(const GeometrySubject& subject, const GeometryStudy& 
   out += fmt::format("  {:<15}", "sensor") + text_head(kThresholdFields, &ThresholdField::below, "", widths);
   for (int i = 0; i < subject.array.size(); ++i)
     out += fmt::format("  {:<15}", study.sensors[at(i)].id) +
-           text_row_or(kThresholdFields, widths, instead_of(i), subject, study, i);
+           text_row_or(kThresholdFields, widths, instead_of(i), units_of(subject).fine_per_inside, subject, study, i);
   if (subject.array.units().grouped()) out += fmt::format("  {}\n", kSizesOfOneAxis);
   if (subject.file) out += "  drift since the calibration: " + drift_words(*subject.file, 0.0) + "\n";
   return out;
@@ -118,7 +130,7 @@ std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& s
   if (!study.levels.empty()) {
     out += "\nprotection level at rest, as stated, by the noise of a sample\n";
     out += fmt::format("  {:>22}", "noise of a sample, mg0");
-    for (const auto& level : study.levels) out += fmt::format(" {:>8.2f}", level.sigma_mg0);
+    for (const auto& level : study.levels) out += fmt::format(" {:>8.2f}", level.sigma_fine);
     out += fmt::format("\n  {:>22}", "one sample, deg");
     for (const auto& level : study.levels) out += fmt::format(" {:>8.4f}", level.one_sample_deg);
     out += fmt::format("\n  {:>22}", fmt::format("block of {:.0f}, deg", subject.settings.samples));
@@ -127,14 +139,16 @@ std::string attitude_text(const GeometrySubject& subject, const GeometryStudy& s
   }
   if (study.map.empty()) return out;
   const MapSummary& s = study.one_attitude;
+  const char* const unit = is_magnetic(subject) ? "uT" : "g0";
+  const double per = is_magnetic(subject) ? units_of(subject).coarse_per_inside : g0_from_mps2(1.0);
   out += "\nby the length of gravity at one attitude (T8; more attitudes remove the rest)\n";
   out += line("  attitudes that leave a sensor unchecked",
               fmt::format("{:.0f} % of the sphere", 100.0 * s.not_guaranteed_share));
   out += line("  any fault is isolated above",
-              fmt::format("{:.3f} g0 at the best attitude (inclination {:.0f}, toolface {:.0f} deg), {:.3f} g0 at the "
+              fmt::format("{:.3f} {} at the best attitude (inclination {:.0f}, toolface {:.0f} deg), {:.3f} {} at the "
                           "worst",
-                          g0_from_mps2(s.least_clear_mps2), s.best_inclination_deg, s.best_toolface_deg,
-                          g0_from_mps2(s.largest_clear_mps2)));
+                          per * s.least_clear_mps2, unit, s.best_inclination_deg, s.best_toolface_deg,
+                          per * s.largest_clear_mps2, unit));
   if (subject.array.units().grouped())
     out +=
         "  of one axis at fault; a whole chip may fail and keep the length, as by a turn: other chips isolate that\n";
@@ -212,10 +226,12 @@ std::string triple_text(const SensorArray& array) {
 }  // namespace
 
 std::string geometry_text(const GeometrySubject& subject, const GeometryStudy& study) {
-  return reading_text(subject, study) + merit_text(subject, study) + worst_text(study) +
-         sizes_text(study.sizes, subject.array.size()) + threshold_text(subject, study) +
-         attitude_text(subject, study) + bias_text(subject, study) + hidden_wiring_text(subject.array, study) +
-         finding_text(subject, study) + triple_text(subject.array);
+  const std::string out = reading_text(subject, study) + merit_text(subject, study) + worst_text(study) +
+                          sizes_text(study.sizes, subject.array.size(), subject.field()) +
+                          threshold_text(subject, study) + attitude_text(subject, study) + bias_text(subject, study) +
+                          hidden_wiring_text(subject.array, study) + finding_text(subject, study) +
+                          triple_text(subject.array);
+  return in_field_words(out, subject.field());
 }
 
 }  // namespace render

@@ -4,6 +4,7 @@
 
 #include "plumb/array/geometry.hpp"
 #include "plumb/detection/isolation.hpp"
+#include "plumb/render/field_words.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "plumb/render/words.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -28,6 +29,9 @@ std::string turn_words(const std::array<int, 3>& turn, const SensorArray& array)
   return whose + " carry " + carried;
 }
 
+std::string as_of_gravity(const findings::Finding& f, const findings::GeometrySubject& subject,
+                          const findings::GeometryStudy& study);
+
 }  // namespace
 
 std::string wiring_words(const findings::HiddenWiring& wiring, const SensorArray& array) {
@@ -41,6 +45,16 @@ std::string wiring_words(const findings::HiddenWiring& wiring, const SensorArray
 
 std::string geometry_words(const findings::Finding& f, const findings::GeometrySubject& subject,
                            const findings::GeometryStudy& study) {
+  if (f.code == Code::common_rotation && subject.field() == io::FieldKind::magnetic)
+    return "the magnetic field alone does not show the mounting of the axes in the housing; its angle to gravity does, "
+           "but for a turn about the vertical (plumb monitor --group)";
+  return in_field_words(as_of_gravity(f, subject, study), subject.field());
+}
+
+namespace {
+
+std::string as_of_gravity(const findings::Finding& f, const findings::GeometrySubject& subject,
+                          const findings::GeometryStudy& study) {
   const SensorArray& array = subject.array;
   const bool chips = array.units().grouped();
   switch (f.code) {
@@ -88,6 +102,7 @@ std::string geometry_words(const findings::Finding& f, const findings::GeometryS
   }
 }
 
+}  // namespace
 }  // namespace render
 }  // namespace PLUMB_ABI
 }  // namespace plumb

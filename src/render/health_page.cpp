@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "html_view.hpp"
 #include "plumb/core/units.hpp"
@@ -31,6 +32,35 @@ std::string with_sigma(const Json& value, const Json& sigma) { return angle_with
 std::string why(const Json& station) {
   const std::string out = joined_list(station["reasons"], "text");
   return out == "-" ? "" : out;
+}
+
+/// Of a tool with groups beside its accelerometers: what all of them say, before what these say alone.
+Section groups_view(const Json& report) {
+  Section out("groups", "Groups of the tool", "What each group of sensors says, and how they agree.");
+  ViewRows rows;
+  std::vector<std::string> distrusted;
+  const auto add = [&](const std::string& name, const Json& sensors, bool good, const std::string& use,
+                       const Json& excluded, const Json& page) {
+    rows.push_back({name, joined_list(sensors), ViewCell(use, good ? "good" : "bad"), joined_list(excluded),
+                    page.is_null() ? ViewCell("-") : ViewCell(page.get<std::string>())});
+    if (!good) distrusted.push_back(name + ": " + use);
+  };
+  Json own = Json::array();
+  for (const Json& sensor : report["extremes"]["sensors"]) own.push_back(sensor["id"]);
+  add("accelerometers", own, report["answer"]["usable_for_survey"] == "yes", report["answer"]["sentence"],
+      report["answer"]["excluded"], Json("this page"));
+  for (const Json& g : report["groups"]) add(g["name"], g["sensors"], g["trusted"], g["use"], g["excluded"], g["page"]);
+  out.table("Groups", {"group", "sensors", "verdict", "excluded", "page"}, rows);
+  for (const Json& g : report["groups"]) {
+    if (!g["dip"].is_null())
+      out.text("Gravity against the field of " + g["name"].get<std::string>() + ": " + g["dip"].get<std::string>());
+  }
+  if (distrusted.empty()) {
+    out.text("Every group may be used.");
+  } else {
+    out.list("What not to trust", distrusted);
+  }
+  return out;
 }
 
 Section answer_view(const Json& report) {
@@ -302,15 +332,17 @@ Section identity_of(const Json& report) {
 std::string health_html(const Json& report, const PagePictures& pictures, const std::string& data) {
   const Json& run = report["run"];
   const Json& id = report["identity"];
-  return sections_html(
-      {"Tool health: " + id["name"].get<std::string>(),
-       fmt::format("{}, watched by plumb {}. Every figure is in {} beside this page.",
-                   count_text(report["extremes"]["sensors"].size(), "sensor"),
-                   id["build"]["version"].get<std::string>(), data),
-       "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
-       fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
-      {answer_view(report), stations_view(report, pictures), roll_view(report, pictures), events_view(report),
-       motion_view(report, pictures), extremes_view(report), basis_view(report), identity_of(report)});
+  std::vector<Section> sections = {
+      answer_view(report),           stations_view(report, pictures), roll_view(report, pictures), events_view(report),
+      motion_view(report, pictures), extremes_view(report),           basis_view(report),          identity_of(report)};
+  if (report.contains("groups")) sections.insert(sections.begin(), groups_view(report));
+  return sections_html({"Tool health: " + id["name"].get<std::string>(),
+                        fmt::format("{}, watched by plumb {}. Every figure is in {} beside this page.",
+                                    count_text(report["extremes"]["sensors"].size(), "sensor"),
+                                    id["build"]["version"].get<std::string>(), data),
+                        "mg0 = 0.001 x 9.80665 m/s^2; angles in deg. docs/health-report.md states the rules.",
+                        fmt::format("Run {} on {}.", run.value("time", "-"), run.value("host", "-"))},
+                       std::move(sections));
 }
 
 }  // namespace render

@@ -98,7 +98,8 @@ Json axis_json(const NoiseAxis& axis) {
   out["peaks"] = peaks_json(study.spectrum);
   out["whiteness"] = whiteness_json(study.whiteness);
   out["noise"] = declare_words(axis);
-  out["noise_declared_mps2"] = axis.declared_mps2 ? Json(*axis.declared_mps2) : Json();
+  out[std::string("noise_declared_") + io::units_of(axis.unit.field).json_suffix] =
+      axis.declared ? Json(*axis.declared) : Json();
   out["allan"] = allan_json(study.allan);
   return out;
 }

@@ -25,10 +25,9 @@ Section summary_view(const NoiseReport& report) {
     row.emplace_back(declared.empty() ? std::string("-") : declared);
     row.emplace_back(judged ? std::string(noise::to_string(axis.study.whiteness.verdict)) : std::string("-"));
     for (const Term term : noise::kAllTerms) {
-      row.emplace_back(!judged ? std::string("-")
-                       : axis.study.fit.of(term).visible
-                           ? term_value(term, axis) + " " + term_unit(term, fine_unit(axis).name)
-                           : std::string("not visible"));
+      row.emplace_back(!judged                           ? std::string("-")
+                       : axis.study.fit.of(term).visible ? term_value(term, axis) + " " + term_unit(term, axis).name
+                                                         : std::string("not visible"));
     }
     rows.push_back(row);
   }
@@ -63,10 +62,9 @@ Section axis_view(const NoiseAxis& axis, std::size_t k, const PagePictures& pict
                {"White", noise::to_string(study.whiteness.verdict),
                 fmt::format("over {}", count_text(study.whiteness.block, "sample"))},
                {"Peaks", std::to_string(study.spectrum.peaks.size()), "lines in the spectrum"}});
-  const std::string unit = fine_unit(axis).name;
   ViewRows terms;
   for (const Term term : noise::kAllTerms)
-    terms.push_back({term_words(term), term_unit(term, unit), term_value(term, axis), term_interval(term, axis),
+    terms.push_back({term_words(term), term_unit(term, axis).name, term_value(term, axis), term_interval(term, axis),
                      term_remark(study.fit.of(term))});
   out.table("Terms of noise", {"term", "unit", "value", "95 % interval", "remark"}, terms);
   out.text("Whiteness: " + whiteness_words(axis) + ".");

@@ -94,7 +94,9 @@ void add_fit(const NoiseAxis& axis, std::vector<NoiseRemark>& out) {
         {study.name,
          fmt::format("means of blocks wander by {:.3g} {} (1 sigma) over the {:.3g} h of the log, beyond `noise`",
                      w.wander * shown_unit(axis).factor, shown_unit(axis).name, study.duration_s / 3600.0),
-         "`noise` does not cover it: state at least that as `stability`"});
+         axis.unit.field == io::FieldKind::rate
+             ? "`noise` does not cover it: allow at least that in `bias_bound_radps`, in rad/s"
+             : "`noise` does not cover it: state at least that as `stability`"});
 }
 
 /// What is said of several columns alike is said once.

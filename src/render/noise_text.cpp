@@ -31,13 +31,12 @@ std::string axis_text(const NoiseAxis& axis) {
   std::string out =
       fmt::format("\n{}: {} at {:.5g} Hz, {:.4g} h\n", io::printable_line(study.name),
                   count_text(study.readings, "reading"), 1.0 / study.stretch.period_s, study.duration_s / 3600.0);
-  const std::string unit = fine_unit(axis).name;
   for (const Term term : noise::kAllTerms) {
+    const std::string unit = term_unit(term, axis).name;
     const noise::TermEstimate& one = study.fit.of(term);
-    const std::string value = one.visible ? term_value(term, axis) + " " + term_unit(term, unit) : "not visible";
-    const std::string rest =
-        one.visible ? term_interval(term, axis)
-                    : fmt::format("{} {}; {}", term_interval(term, axis), term_unit(term, unit), term_remark(one));
+    const std::string value = one.visible ? term_value(term, axis) + " " + unit : "not visible";
+    const std::string rest = one.visible ? term_interval(term, axis)
+                                         : fmt::format("{} {}; {}", term_interval(term, axis), unit, term_remark(one));
     out += key_line(term_words(term), fmt::format("{:<24}{}", value, rest));
   }
   out += key_line("Allan deviation", least_deviation(axis));
@@ -46,6 +45,10 @@ std::string axis_text(const NoiseAxis& axis) {
   out += key_line("whiteness", whiteness_words(axis));
   const std::string declared = declared_words(axis);
   return out + key_line("noise to declare", declare_words(axis) + (declared.empty() ? "" : "; " + declared));
+}
+
+const char* sensor_table(const NoiseAxis& axis) {
+  return axis.unit.field == io::FieldKind::gravity ? "[[sensor]]" : "[[group.sensor]]";
 }
 
 /// A name as a TOML string.
@@ -64,12 +67,15 @@ std::string noise_lines(const NoiseReport& report) {
   for (const NoiseAxis& axis : report.axes) {
     if (axis.study.stretch.refused != noise::Refused::no || !axis.unit.sensor) continue;
     unknown = unknown || axis.unit.name.empty();
-    out += fmt::format("[[sensor]]\nid = {}\nnoise = \"{}\"\n\n", toml_text(axis.study.name), declare_words(axis));
+    out += fmt::format("{}\nid = {}\nnoise = \"{}\"\n\n", sensor_table(axis), toml_text(axis.study.name),
+                       declare_words(axis));
   }
   if (out.empty()) return out;
-  std::string head =
-      fmt::format("# 1 sigma of one sample, for blocks of {} (window = {}); put each `noise` into its [[sensor]]\n",
-                  count_text(report.block, "sample"), report.block);
+  const NoiseAxis& first = report.axes.front();
+  const std::string window =
+      first.unit.field == io::FieldKind::rate ? std::string() : fmt::format(" (window = {})", report.block);
+  std::string head = fmt::format("# 1 sigma of one sample, for blocks of {}{}; put each `noise` into its {}\n",
+                                 count_text(report.block, "sample"), window, sensor_table(first));
   if (unknown) head += "# UNIT: that of the log; --unit names it\n";
   out.pop_back();
   return head + out;

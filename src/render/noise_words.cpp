@@ -24,13 +24,16 @@ std::string hours_words(double hours) {
 }  // namespace
 
 ShownUnit shown_unit(const NoiseAxis& axis) {
-  if (axis.unit.acceleration) return {kMg0, "mg0"};
+  const io::FieldUnits& field = io::units_of(axis.unit.field);
+  if (axis.unit.acceleration) return {field.fine_per_inside / field.json_per_inside, field.fine};
   return {1.0, axis.unit.name.empty() ? "(unit of the log)" : axis.unit.name};
 }
 
 ShownUnit fine_unit(const NoiseAxis& axis) {
-  if (axis.unit.acceleration) return {1e3 * kMg0, "ug0"};
-  return shown_unit(axis);
+  const ShownUnit shown = shown_unit(axis);
+  if (!axis.unit.acceleration) return shown;
+  if (axis.unit.field == io::FieldKind::rate) return {3600.0 * shown.factor, "deg/h"};
+  return axis.unit.field == io::FieldKind::gravity ? ShownUnit{1e3 * shown.factor, "ug0"} : shown;
 }
 
 std::string term_words(Term term) {
@@ -44,31 +47,41 @@ std::string term_words(Term term) {
   return "?";
 }
 
-std::string term_unit(Term term, const std::string& unit) {
+/// Of gyros as their datasheets have them: angle random walk in deg/sqrt(h), bias instability in deg/h.
+static ShownUnit gyro_term(Term term) {
+  constexpr double kDeg = 180.0 / kPi;
   switch (term) {
-    case Term::quantisation: return unit + " s";
-    case Term::white: return unit + "/sqrt(Hz)";
-    case Term::bias_instability: return unit;
-    case Term::random_walk: return unit + "/sqrt(s)";
-    case Term::drift_rate: return unit + "/h";
+    case Term::quantisation: return {kDeg, "deg"};
+    case Term::white: return {60.0 * kDeg, "deg/sqrt(h)"};
+    case Term::bias_instability: return {3600.0 * kDeg, "deg/h"};
+    case Term::random_walk: return {3600.0 * 60.0 * kDeg, "deg/h/sqrt(h)"};
+    case Term::drift_rate: return {3600.0 * 3600.0 * kDeg, "deg/h/h"};
   }
-  return unit;
+  return {kDeg, "deg/s"};
 }
 
-/// From the unit of the readings and seconds to that of term_unit.
-static double term_factor(Term term, const NoiseAxis& axis) {
-  return fine_unit(axis).factor * (term == Term::drift_rate ? 3600.0 : 1.0);
+ShownUnit term_unit(Term term, const NoiseAxis& axis) {
+  if (axis.unit.acceleration && axis.unit.field == io::FieldKind::rate) return gyro_term(term);
+  const ShownUnit fine = fine_unit(axis);
+  switch (term) {
+    case Term::quantisation: return {fine.factor, fine.name + " s"};
+    case Term::white: return {fine.factor, fine.name + "/sqrt(Hz)"};
+    case Term::bias_instability: return fine;
+    case Term::random_walk: return {fine.factor, fine.name + "/sqrt(s)"};
+    case Term::drift_rate: return {3600.0 * fine.factor, fine.name + "/h"};
+  }
+  return fine;
 }
 
 std::string term_value(Term term, const NoiseAxis& axis) {
   const noise::TermEstimate& one = axis.study.fit.of(term);
   if (!one.visible) return "not visible";
-  return fmt::format(term == Term::drift_rate ? "{:+.3g}" : "{:.3g}", one.value * term_factor(term, axis));
+  return fmt::format(term == Term::drift_rate ? "{:+.3g}" : "{:.3g}", one.value * term_unit(term, axis).factor);
 }
 
 std::string term_interval(Term term, const NoiseAxis& axis) {
   const noise::TermEstimate& one = axis.study.fit.of(term);
-  const double factor = term_factor(term, axis);
+  const double factor = term_unit(term, axis).factor;
   if (one.visible || term == Term::drift_rate)
     return fmt::format(term == Term::drift_rate ? "{:+.3g} .. {:+.3g}" : "{:.3g} .. {:.3g}", one.low * factor,
                        one.high * factor);
@@ -119,14 +132,16 @@ std::string whiteness_words(const NoiseAxis& axis) {
 
 std::string declare_words(const NoiseAxis& axis) {
   const double sigma = axis.study.whiteness.declare_sigma;
-  if (axis.unit.acceleration) return fmt::format("{:.3g} mg0", in_mg0(sigma));
+  const ShownUnit shown = shown_unit(axis);
+  if (axis.unit.acceleration) return fmt::format("{:.3g} {}", sigma * shown.factor, shown.name);
   return fmt::format("{:.3g} {}", sigma, axis.unit.name.empty() ? "UNIT" : axis.unit.name);
 }
 
 std::string declared_words(const NoiseAxis& axis) {
-  if (!axis.declared_mps2) return "";
-  return fmt::format("declared {:.3g} mg0: the measured one is {:.3g} times that", in_mg0(*axis.declared_mps2),
-                     axis.study.whiteness.declare_sigma / *axis.declared_mps2);
+  if (!axis.declared) return "";
+  const ShownUnit shown = shown_unit(axis);
+  return fmt::format("declared {:.3g} {}: the measured one is {:.3g} times that", *axis.declared * shown.factor,
+                     shown.name, axis.study.whiteness.declare_sigma / *axis.declared);
 }
 
 }  // namespace render

@@ -15,15 +15,15 @@ struct ShownUnit {
   double factor = 1.0;
   std::string name;
 };
-/// "mg0" for accelerations, else that of the log.
+/// "mg0" for accelerations, "nT" and "deg/s" for groups of another field, else that of the log.
 ShownUnit shown_unit(const NoiseAxis& axis);
-/// "ug0" for accelerations: for the terms.
+/// "ug0" for accelerations, "nT", "deg/h": for Allan deviations.
 ShownUnit fine_unit(const NoiseAxis& axis);
 
 /// "white noise N".
 std::string term_words(noise::Term term);
-/// "ug0/sqrt(Hz)".
-std::string term_unit(noise::Term term, const std::string& unit);
+/// "ug0/sqrt(Hz)", "deg/sqrt(h)"; the factor is from the unit of the readings and seconds.
+ShownUnit term_unit(noise::Term term, const NoiseAxis& axis);
 /// "101", "99 .. 103"; of a term that is not visible "not visible" and "below 0.12".
 std::string term_value(noise::Term term, const NoiseAxis& axis);
 std::string term_interval(noise::Term term, const NoiseAxis& axis);

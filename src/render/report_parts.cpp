@@ -268,7 +268,7 @@ findings::GeometrySubject subject_of(const io::ArrayFile& array, const Calibrati
 }
 
 Json array_section(const findings::GeometrySubject& subject, const findings::GeometryStudy& study) {
-  Json out = io::parsed(geometry_json(subject, study));
+  Json out = geometry_document(subject, study);
   Json map = Json::array();
   for (const findings::AttitudePoint& p : study.map)
     map.push_back({p.inclination_deg, p.toolface_deg,

@@ -134,8 +134,7 @@ Passage::Passage(const Vec3& from, const Vec3& to) noexcept : from_(from), acros
 }
 
 Vec3 Passage::at(double part) const noexcept {
-  const double smooth = part * part * (3.0 - 2.0 * part);
-  const SinCos turn = portable_sincos(angle_rad_ * smooth);
+  const SinCos turn = portable_sincos(angle_rad_ * smooth(part));
   return plus(scaled(from_, turn.cos), scaled(across_, turn.sin));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "plumb/scenario/count_text.hpp"
+#include "plumb/scenario/portable_math.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -42,6 +43,14 @@ std::string surroundings_wrong(const Scenario& s) {
   }
   if (!within(norm(turning.axis), 1.0 - 1e-6, 1.0 + 1e-6)) {
     return "the axis of rotation is not of unit length. Remedy: divide it by its length";
+  }
+  const Interference& beside = s.interference;
+  if (!within(norm(beside.field_mps2), 0.0, 1e6) || !std::isfinite(beside.from_s) ||
+      !(beside.until_s >= beside.from_s)) {
+    return "the interference is not usable. Remedy: give a finite field and an end that is not before its begin";
+  }
+  if (!within(s.dip_rad, -0.5 * kPi, 0.5 * kPi)) {
+    return "the dip is not usable. Remedy: give the angle of the field below the horizon, -90 to 90 deg";
   }
   if (!within(s.depth.station_spacing_m, -1e6, 1e6) || !within(s.depth.gravity_per_s2, -1.0, 1.0) ||
       !within(s.depth.heat_degc_per_m, -1e3, 1e3)) {
@@ -112,6 +121,8 @@ std::vector<std::uint32_t> roll_groups_of(const std::vector<Vec3>& directions) {
   return group;
 }
 
+std::uint64_t noise_seed(const Scenario& s) noexcept { return s.part == 0 ? s.seed : derive_seed(s.seed, s.part); }
+
 }  // namespace
 
 tl::expected<Simulator, std::string> Simulator::make(Scenario scenario) {
@@ -123,7 +134,7 @@ tl::expected<Simulator, std::string> Simulator::make(Scenario scenario) {
   // Faults of direction mean the true axes.
   Datasheet real = scenario.tool.datasheet;
   for (std::size_t i = 0; i < static_cast<std::size_t>(real.size); ++i) real.sensor[i].row.axis = scenario.tool.axes[i];
-  auto injector = Injector::make(real, scenario.tool.model, scenario.faults, scenario.seed, scenario.noise);
+  auto injector = Injector::make(real, scenario.tool.model, scenario.faults, noise_seed(scenario), scenario.noise);
   if (!injector) return refuse(injector.error());
   return Simulator(std::move(scenario), std::move(*directions), std::move(*injector));
 }
@@ -138,14 +149,15 @@ Simulator::Simulator(Scenario scenario, std::vector<Vec3> directions, Injector i
       move_rows_(rows_of(scenario_.move_s, scenario_.rate_hz)) {
   if (scenario_.tag_stations && scenario_.tag_rolls) roll_group_ = roll_groups_of(directions_);
   for (std::size_t k = 0; k + 1 < directions_.size(); ++k) passages_.emplace_back(directions_[k], directions_[k + 1]);
+  if (scenario_.sensed != Sensed::gravity) headings_ = Headings(scenario_.attitudes, directions_, scenario_.seed);
   for (int i = 0; i < scenario_.tool.datasheet.size; ++i) {
-    noise_.emplace_back(scenario_.seed, Purpose::noise, static_cast<std::uint32_t>(i));
+    noise_.emplace_back(noise_seed(scenario_), Purpose::noise, static_cast<std::uint32_t>(i));
   }
   const std::uint64_t stations = directions_.size();
   if (scenario_.noise.instability.any()) {
     const std::uint64_t ticks = stations * (dwell_rows_ + move_rows_);
     for (int i = 0; i < scenario_.tool.datasheet.size; ++i) {
-      instability_.emplace_back(scenario_.noise.instability, ticks, 1.0 / scenario_.rate_hz, scenario_.seed, i);
+      instability_.emplace_back(scenario_.noise.instability, ticks, 1.0 / scenario_.rate_hz, noise_seed(scenario_), i);
     }
   }
   rows_ = stations * dwell_rows_ + (scenario_.record_motion ? (stations - 1) * move_rows_ : 0);
@@ -235,16 +247,44 @@ Truth Simulator::truth_at(const Place& place) const noexcept {
   truth.gravity_mps2 = scaled(down, scenario_.gravity_mps2 + scenario_.depth.gravity_per_s2 * truth.depth_m);
   truth.station = static_cast<std::uint32_t>(place.moment.station);
   truth.moving = place.moving;
+  if (scenario_.sensed == Sensed::magnetic) feel_field(place, down, truth);
+  if (scenario_.sensed == Sensed::rate) feel_rate(place, truth);
   const double rms_mps2 = place.moving ? scenario_.vibration_mps2 : scenario_.rest_vibration_mps2;
   if (rms_mps2 > 0.0) truth.body_acceleration_mps2 = vibration(vibration_, place.moment.row, rms_mps2);
   return truth;
 }
 
+void Simulator::feel_field(const Place& place, const Vec3& down, Truth& truth) const noexcept {
+  const Scenario& s = scenario_;
+  Vec3 north = headings_.north(static_cast<std::size_t>(place.moment.station - 1), place.part);
+  if (s.turning.rate_radps != 0.0)
+    north = seen_from_turned(north, s.turning.axis, s.turning.angle_rad(place.moment.time_s));
+  const SinCos dip = portable_sincos(s.dip_rad);
+  const double length = norm(truth.gravity_mps2);
+  truth.gravity_mps2 = plus(scaled(north, length * dip.cos), scaled(down, length * dip.sin));
+  const Interference& beside = s.interference;
+  if (!(place.moment.time_s >= beside.from_s && place.moment.time_s < beside.until_s)) return;
+  const Vec3& b = beside.field_mps2;
+  const Vec3 seen =
+      beside.of_tool ? b : plus(plus(scaled(north, b[0]), scaled(cross(down, north), b[1])), scaled(down, b[2]));
+  truth.gravity_mps2 = plus(truth.gravity_mps2, seen);
+}
+
+void Simulator::feel_rate(const Place& place, Truth& truth) const noexcept {
+  const Turning& turning = scenario_.turning;
+  const double move_s = static_cast<double>(move_rows_ + 1) / scenario_.rate_hz;
+  Vec3 rate = headings_.rate_radps(static_cast<std::size_t>(place.moment.station - 1), place.part, move_s);
+  if (turning.rate_radps != 0.0) rate = seen_from_turned(rate, turning.axis, turning.angle_rad(place.moment.time_s));
+  truth.rate_radps = plus(rate, truth.rate_radps);
+  truth.gravity_mps2 = {};
+}
+
 Sample Simulator::healthy(const Place& place, const Truth& truth) const noexcept {
   const Tool& tool = scenario_.tool;
   // An accelerometer cannot tell gravity from the body accelerating the other way.
-  const Vec3 felt = minus(truth.gravity_mps2, truth.body_acceleration_mps2);
-  const bool turns = dot(truth.rate_radps, truth.rate_radps) > 0.0;
+  const bool rate = scenario_.sensed == Sensed::rate;
+  const Vec3 felt = rate ? truth.rate_radps : minus(truth.gravity_mps2, truth.body_acceleration_mps2);
+  const bool turns = scenario_.sensed == Sensed::gravity && dot(truth.rate_radps, truth.rate_radps) > 0.0;
   Readings accel_mps2{};
   for (int i = 0; i < tool.datasheet.size; ++i) {
     const auto s = static_cast<std::size_t>(i);

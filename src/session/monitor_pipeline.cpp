@@ -8,9 +8,6 @@
 #include "plumb/io/field_json.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/scenario/count_text.hpp"
-#include "plumb/session/interrupt.hpp"
-#include "plumb/session/progress.hpp"
-#include "row_pump.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -152,46 +149,6 @@ void take_one(const stepping::Rows& rows, std::size_t k, const stepping::Found& 
   one.found.assign(1, found);
 }
 
-/// Rows through the monitor and to the sinks; counts go to the run.
-class Teller {
- public:
-  Teller(stepping::Stepper& stepper, const std::vector<VerdictSink*>& sinks, MonitorRun& run)
-      : stepper_(stepper), sinks_(sinks), run_(run) {
-    for (const VerdictSink* sink : sinks) {
-      wanted_ = std::max(wanted_, sink->wanted());
-      if (sink->found_in_motion() != nullptr) in_motion_ = sink;
-    }
-  }
-  io::FileExpected<void> take(const stepping::Rows& rows) {
-    if (in_motion_ == nullptr) return step(rows);
-    for (std::size_t k = 0; k < rows.row.size(); ++k) {
-      take_one(rows, k, *in_motion_->found_in_motion(), one_);
-      const io::FileExpected<void> taken = step(one_);
-      if (!taken) return taken;
-    }
-    return {};
-  }
-  const stepping::Said& said() const noexcept { return said_; }
-
- private:
-  io::FileExpected<void> step(const stepping::Rows& rows) {
-    stepper_.step(rows, run_.samples == 0, wanted_, said_);
-    run_.samples += rows.row.size();
-    run_.blocks += said_.blocks;
-    run_.transitions += said_.changes;
-    run_.last_time_s = rows.row.back().time_s;
-    return tell(rows, said_, sinks_);
-  }
-
-  stepping::Stepper& stepper_;
-  const std::vector<VerdictSink*>& sinks_;
-  MonitorRun& run_;
-  const VerdictSink* in_motion_ = nullptr;
-  stepping::Wanted wanted_ = stepping::Wanted::changes;
-  stepping::Said said_;
-  stepping::Rows one_;
-};
-
 }  // namespace
 
 SensorSet noise_changed(const io::ArrayFile& array, const Calibration& calibration) {
@@ -228,23 +185,34 @@ io::FileExpected<void> EventsFile::take(const Sample&, const Verdict& verdict) {
   if (verdict.transition.sequence == 0) return {};
   line_.clear();
   io::append_event_json(line_, verdict.transition, array_);
-  return put_line(file_, line_, consistent_);
+  return put(line_);
 }
 
-io::FileExpected<void> EventsFile::put(std::string& line) { return put_line(file_, line, consistent_); }
+io::FileExpected<void> EventsFile::put(std::string& line) {
+  if (!group_.empty()) line.insert(1, "\"group\":\"" + group_ + "\",");  // names of groups need no escapes
+  return put_line(file_, line, consistent_);
+}
 
 io::FileExpected<void> VerdictsFile::take(const Sample&, const Verdict& verdict) {
   if (!verdict.tick && !every_sample_) return {};
   line_.clear();
   io::append_verdict_json(line_, verdict, array_, frame_);
   if (field_ != io::FieldKind::gravity) line_ = io::in_field_units(line_, field_);
+  for (const VerdictNote* note : notes_) note->append(verdict, line_);
   return put_line(file_, line_, consistent_);
+}
+
+io::FileExpected<std::unique_ptr<MonitorSetup>> monitor_setup(const io::ArrayFile& array,
+                                                              const Calibration* calibration, double days) {
+  Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
+  if (!setup) return refused_setup(setup.error(), array);
+  return *std::move(setup);
 }
 
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration* calibration, double days) {
-  const Expected<std::unique_ptr<MonitorSetup>> setup = setup_of(array, calibration, days);
-  if (!setup) return refused_setup(setup.error(), array);
+  const io::FileExpected<std::unique_ptr<MonitorSetup>> setup = monitor_setup(array, calibration, days);
+  if (!setup) return tl::unexpected<io::FileError>(setup.error());
   auto monitor = std::make_unique<HealthMonitor>();
   const Expected<void> configured = monitor->configure(**setup);
   if (configured) return monitor;
@@ -321,32 +289,51 @@ std::unique_ptr<stepping::Stepper> make_stepper(const io::ArrayFile& array, cons
   return stepping::make_stepper(bytes, sensors, array.monitor.window, least_capacity);
 }
 
+StepperRun::StepperRun(stepping::Stepper& stepper, const std::vector<VerdictSink*>& sinks)
+    : stepper_(stepper), sinks_(sinks) {
+  for (const VerdictSink* sink : sinks) {
+    wanted_ = std::max(wanted_, sink->wanted());
+    if (sink->found_in_motion() != nullptr) in_motion_ = sink;
+  }
+}
+
+io::FileExpected<void> StepperRun::take(const stepping::Rows& rows) {
+  if (in_motion_ == nullptr) return step(rows);
+  for (std::size_t k = 0; k < rows.row.size(); ++k) {
+    take_one(rows, k, *in_motion_->found_in_motion(), one_);
+    const io::FileExpected<void> taken = step(one_);
+    if (!taken) return taken;
+  }
+  return {};
+}
+
+io::FileExpected<void> StepperRun::step(const stepping::Rows& rows) {
+  stepper_.step(rows, run_.samples == 0, wanted_, said_);
+  run_.samples += rows.row.size();
+  run_.blocks += said_.blocks;
+  run_.transitions += said_.changes;
+  run_.last_time_s = rows.row.back().time_s;
+  return tell(rows, said_, sinks_);
+}
+
+MonitorRun StepperRun::end(LogEnd end) {
+  static_cast<LogEnd&>(run_) = std::move(end);
+  run_.counts = said_.counts;
+  std::vector<std::uint8_t> now;
+  stepper_.now(now);
+  stepping_detail::Unpacker unpacker(now.data());
+  unpacker(run_.last);
+  return run_;
+}
+
 io::FileExpected<MonitorRun> run_stepper(stepping::Stepper& stepper, const io::ArrayFile& array, const LogSpec& log,
                                          const std::vector<VerdictSink*>& sinks) {
-  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
-  if (!reader) return tl::unexpected<io::FileError>(reader.error());
-  reader->stop_when(interrupt_flag());
-  if (log.follow) reader->follow();
-  if (log.hash) reader->hash_bytes();
-  MonitorRun run;
-  Teller teller(stepper, sinks, run);
-  Progress progress("monitoring " + log.path);
-  RowPump pump(*reader, array, is_live(log));
-  while (const stepping::Rows* rows = pump.next()) {
-    const io::FileExpected<void> taken = teller.take(*rows);
-    if (!taken) return tl::unexpected<io::FileError>(taken.error());
-    progress.at(run.samples, run.last_time_s);
-  }
-  run.counts = teller.said().counts;
-  run.interrupted = interrupted();
-  run.stopped = pump.ended() == io::LogReader::Next::error;
-  if (run.stopped) run.stop = reader->error();
-  std::vector<std::uint8_t> now;
-  stepper.now(now);
-  stepping_detail::Unpacker unpacker(now.data());
-  unpacker(run.last);
-  run.log = reader->statistics();
-  return run;
+  StepperRun run(stepper, sinks);
+  std::vector<LogShare> shares(1);
+  shares.front() = {&array, &run, {}};
+  const io::FileExpected<void> done = run_log(log, shares);
+  if (!done) return tl::unexpected<io::FileError>(done.error());
+  return run.end(std::move(shares.front().end));
 }
 
 }  // namespace session

@@ -1,9 +1,11 @@
 #include "plumb/session/rate_run.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "plumb/io/json_fields.hpp"
-#include "plumb/session/interrupt.hpp"
+#include "plumb/session/detail/step_rows.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -13,6 +15,11 @@ namespace {
 /// From so much of full scale on a reading counts as clipped, as in the monitor at rest.
 constexpr double kClipped = 0.995;
 
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
+
+/// More than a block holds. Accelerometers that deliver no rows for so long say nothing of rest.
+constexpr std::size_t kMostWaiting = 4 * kWindowCapacity;
+
 SensorSet clipped_of(const io::ArrayFile& array, const Sample& sample) {
   SensorSet out;
   for (int i = 0; i < array.datasheet.size; ++i) {
@@ -21,28 +28,6 @@ SensorSet clipped_of(const io::ArrayFile& array, const Sample& sample) {
     if (full > 0.0 && std::fabs(sample.raw[a]) >= kClipped * full) out = out.with(i);
   }
   return out;
-}
-
-/// What a run adds up from verdict to verdict.
-void take(const RateVerdict& now, double time_s, const RateGroup& group, RateRun& run) {
-  RateEvent event{time_s, now.suspects, now.excluded, now.off_at_rest, now.turned_at_rest, now.cause};
-  const RateVerdict& before = run.last;
-  const bool changed = now.suspects != before.suspects || now.excluded != before.excluded ||
-                       now.off_at_rest != before.off_at_rest || now.turned_at_rest != before.turned_at_rest;
-  if (changed) run.events.push_back(event);
-  if (now.turned_at_rest && !before.turned_at_rest && run.turned_at_rest++ == 0) run.turned_at_rest_s = time_s;
-  run.ever_excluded = run.ever_excluded | now.excluded;
-  run.ever_off_at_rest = run.ever_off_at_rest | now.off_at_rest;
-  if (now.block_ended) {
-    ++run.blocks;
-    const double bound_radps = with_common_part(group, norm(now.block.rate_radps), now.block.bound_radps);
-    if (now.block.validity != ForceValidity::none && std::isfinite(bound_radps)) {
-      ++run.bounded_blocks;
-      run.bound_sum_radps += bound_radps;
-      run.worst_bound_radps = std::fmax(run.worst_bound_radps, bound_radps);
-    }
-  }
-  run.last = now;
 }
 
 }  // namespace
@@ -56,49 +41,99 @@ RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, con
   return out;
 }
 
-io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest,
-                                    const io::GyroCalibration* calibration) {
-  const io::FileExpected<RateGroup> group = rate_group(array, calibration);
+RateWatch::RateWatch(const io::ArrayFile& array, RateGroup group, bool waits_for_rest)
+    : array_(array), group_(std::move(group)), waits_(waits_for_rest) {
+  run_.calibrated = group_.calibrated;
+  run_.common = group_.common;
+}
+
+io::FileExpected<std::unique_ptr<RateWatch>> RateWatch::make(const io::ArrayFile& array, bool waits_for_rest,
+                                                             const io::GyroCalibration* calibration) {
+  io::FileExpected<RateGroup> group = rate_group(array, calibration);
   if (!group) return tl::unexpected<io::FileError>(group.error());
-  auto monitor = std::make_unique<RateMonitor>();
-  if (const Expected<void> made = monitor->configure(group->array, group->setup); !made) {
-    io::FileError error = io::from_error(made.error());
-    error.file = array.path;
-    error.field = "rate";
-    return tl::unexpected<io::FileError>(error);
-  }
-  io::FileExpected<io::LogReader> reader = io::LogReader::open(log.path, array, log.on_bad_row);
-  if (!reader) return tl::unexpected<io::FileError>(reader.error());
-  reader->stop_when(interrupt_flag());
-  RateRun run;
-  run.calibrated = group->calibrated;
-  run.common = group->common;
-  Readings heard_s{};
+  std::unique_ptr<RateWatch> out(new RateWatch(array, *std::move(group), waits_for_rest));
+  const Expected<void> made = out->monitor_.configure(out->group_.array, out->group_.setup);
+  if (made) return out;
+  io::FileError error = io::from_error(made.error());
+  error.file = array.path;
+  error.field = "rate";
+  return tl::unexpected<io::FileError>(error);
+}
+
+io::FileExpected<void> RateWatch::take(const stepping::Rows& rows) {
   Sample sample;
-  io::LogReader::Next next = io::LogReader::Next::row;
-  while ((next = reader->next(sample)) == io::LogReader::Next::row) {
-    RateSample one = rate_sample(array, group->model, sample);
-    one.at_rest = rest != nullptr && rest->at_rest(sample.time_s);
-    run.samples_at_rest += one.at_rest ? 1 : 0;
-    for (int i = 0; i < array.array.size(); ++i) {
-      const auto a = static_cast<std::size_t>(i);
-      const bool heard = one.delivered.has(i) && std::isfinite(one.rate_radps[a]);
-      if (run.samples == 0 || heard) heard_s[a] = sample.time_s;
+  io::FileExpected<void> done;
+  for (std::size_t k = 0; k < rows.row.size() && done; ++k) {
+    stepping_detail::take_row(rows, k, sample);
+    waiting_.push_back(rate_sample(array_, group_.model, sample));
+    if (!waits_ || waiting_.size() > kMostWaiting) done = step_until(waiting_.front().time_s, kNever_s);
+  }
+  return done;
+}
+
+io::FileExpected<void> RateWatch::rested(const TrackPoint& block) { return step_until(block.end_s, block.begin_s); }
+io::FileExpected<void> RateWatch::moved(double until_s) { return step_until(until_s, kNever_s); }
+
+io::FileExpected<void> RateWatch::step_until(double until_s, double rest_from_s) {
+  io::FileExpected<void> done;
+  while (done && !waiting_.empty() && waiting_.front().time_s <= until_s) {
+    RateSample& next = waiting_.front();
+    next.at_rest = next.time_s >= rest_from_s;
+    done = step(next);
+    waiting_.pop_front();
+  }
+  return done;
+}
+
+io::FileExpected<void> RateWatch::step(const RateSample& sample) {
+  for (int i = 0; i < array_.array.size(); ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    const bool heard = sample.delivered.has(i) && std::isfinite(sample.rate_radps[a]);
+    if (run_.samples == 0 || heard) heard_s_[a] = sample.time_s;
+  }
+  ++run_.samples;
+  run_.samples_at_rest += sample.at_rest ? 1 : 0;
+  const RateVerdict before = run_.last;
+  const RateVerdict& now = monitor_.step(sample);
+  if (now.turned_at_rest && !before.turned_at_rest && run_.turned_at_rest++ == 0) run_.turned_at_rest_s = sample.time_s;
+  count(now);
+  const bool changed = now.suspects != before.suspects || now.excluded != before.excluded ||
+                       now.off_at_rest != before.off_at_rest || now.turned_at_rest != before.turned_at_rest;
+  if (!changed) return {};
+  const RateEvent event{sample.time_s, now.suspects, now.excluded, now.off_at_rest, now.turned_at_rest, now.cause};
+  io::FileExpected<void> done;
+  for (const Sink& sink : sinks_) {
+    if (done) done = sink(event);
+  }
+  return done;
+}
+
+void RateWatch::count(const RateVerdict& now) {
+  run_.ever_excluded = run_.ever_excluded | now.excluded;
+  run_.ever_off_at_rest = run_.ever_off_at_rest | now.off_at_rest;
+  if (now.block_ended) {
+    ++run_.blocks;
+    const double bound_radps = with_common_part(group_, norm(now.block.rate_radps), now.block.bound_radps);
+    if (now.block.validity != ForceValidity::none && std::isfinite(bound_radps)) {
+      ++run_.bounded_blocks;
+      run_.bound_sum_radps += bound_radps;
+      run_.worst_bound_radps = std::fmax(run_.worst_bound_radps, bound_radps);
     }
-    ++run.samples;
-    take(monitor->step(one), sample.time_s, *group, run);
   }
-  run.log = reader->statistics();
-  for (int i = 0; i < array.array.size(); ++i) {
-    const double quiet_s = run.log.last_time_s - heard_s[static_cast<std::size_t>(i)];
+  run_.last = now;
+}
+
+io::FileExpected<RateRun> RateWatch::end(LogEnd end) {
+  const io::FileExpected<void> done = step_until(std::numeric_limits<double>::infinity(), kNever_s);
+  if (!done) return tl::unexpected<io::FileError>(done.error());
+  static_cast<LogEnd&>(run_) = std::move(end);
+  for (int i = 0; i < array_.array.size(); ++i) {
+    const double quiet_s = run_.log.last_time_s - heard_s_[static_cast<std::size_t>(i)];
     if (!(quiet_s > kSilent_s)) continue;
-    run.silent_s = run.silent.empty() ? quiet_s : std::fmin(run.silent_s, quiet_s);
-    run.silent = run.silent.with(i);
+    run_.silent_s = run_.silent.empty() ? quiet_s : std::fmin(run_.silent_s, quiet_s);
+    run_.silent = run_.silent.with(i);
   }
-  run.interrupted = interrupted();
-  run.stopped = next == io::LogReader::Next::error;
-  if (run.stopped) run.stop = reader->error();
-  return run;
+  return run_;
 }
 
 std::string rate_event_json(const RateEvent& event, const SensorArray& array) {

@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tool_runner.hpp"
@@ -24,8 +26,9 @@ constexpr double kGravity_mps2 = 9.81936, kField_nt = 51375.2, kDip_rad = 72.959
 
 double along(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// What is wrong with the magnetometers from the fifth station on.
-enum class Fault { none, shifted, stuck, turned, gyro };
+/// What is wrong from the fifth station on. Mirrored: a4 is silent, and from the ninth station on a2 reads what keeps
+/// the length of gravity and turns it.
+enum class Fault { none, shifted, stuck, turned, gyro, silent, mirrored };
 
 /// A tool held still in `stations` attitudes, 3 s each, turned for half a second in between.
 class Recording {
@@ -71,8 +74,13 @@ class Recording {
       b[2] = s * y + c * z;
     }
     std::vector<double> cells;
-    for (std::size_t i = 0; i < 4; ++i)
-      cells.push_back((1.0 + kScale[i]) * (along(kAxes[i], g) + 0.02 * kOff[i]) + noise(0.003 + shake));
+    const bool silent = wrong && (fault_ == Fault::silent || fault_ == Fault::mirrored);
+    const bool mirrored = station >= 8 && fault_ == Fault::mirrored;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double felt = (mirrored && i == 1 ? -1.0 : 1.0) * along(kAxes[i], g);
+      const double reading = (1.0 + kScale[i]) * (felt + 0.02 * kOff[i]) + noise(0.003 + shake);
+      cells.push_back(silent && i == 3 ? std::nan("") : reading);
+    }
     for (std::size_t i = 0; i < 4; ++i) {
       double m = (1.0 - kScale[i]) * (along(kAxes[i], b) + 900.0 * kOff[3 - i]) + noise(20.0 + 300.0 * shake);
       if (wrong && fault_ == Fault::shifted && i == 1) m += 1500.0;
@@ -85,7 +93,7 @@ class Recording {
                       (wrong && fault_ == Fault::gyro && i == 5 ? 25.0 : 0.0));
     for (std::size_t k = 0; k < cells.size(); ++k) {
       char cell[40];
-      std::snprintf(cell, sizeof cell, "%s%.7g", k == 0 ? "" : ",", cells[k]);
+      std::snprintf(cell, sizeof cell, std::isnan(cells[k]) ? "%s" : "%s%.7g", k == 0 ? "" : ",", cells[k]);
       text_ += cell;
     }
     text_ += '\n';
@@ -114,12 +122,16 @@ const Directory& desk() {
   return *made;
 }
 
-Outcome watched(Fault fault, std::vector<std::string> more = {}) {
+std::vector<std::string> watching(const std::string& log, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> out = {"monitor", "--array", "tool.toml",    "--calibration", "acc.json", "--log",
+                                  log,       "--group", "mag=mag.json", "--group",       "gyros"};
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+Outcome watched(Fault fault, const std::vector<std::string>& more = {}) {
   write_text(desk() / "run.csv", Recording(16, 9, fault).csv());
-  std::vector<std::string> arguments = {"monitor", "--array", "tool.toml",    "--calibration", "acc.json", "--log",
-                                        "run.csv", "--group", "mag=mag.json", "--group",       "gyros"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run(desk(), arguments);
+  return run(desk(), watching("run.csv", more));
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -162,6 +174,114 @@ TEST(GroupsCommand, AHealthyToolIsNominalInEveryGroupAndTheDipAgrees) {
     EXPECT_TRUE(has(read_text(desk() / page), "Usable for survey: yes")) << page;
 }
 
+// One pass: what a file says standard input says too, to the byte, results and files.
+TEST(GroupsCommand, AStreamSaysWhatTheFileSays) {
+  for (const Fault fault : {Fault::gyro, Fault::turned}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, std::vector<std::string>{"--json"}}) {
+      std::vector<std::string> files = more, streams = more;
+      files.insert(files.end(), {"--events", "fe.jsonl", "--verdicts", "fv.jsonl"});
+      streams.insert(streams.end(), {"--events", "se.jsonl", "--verdicts", "sv.jsonl"});
+      const Outcome file = watched(fault, files), stream = run(desk(), watching("-", streams), "run.csv");
+      EXPECT_EQ(file.code, stream.code);
+      EXPECT_EQ(file.out, stream.out);
+      EXPECT_EQ(file.err, stream.err);
+      for (const char* const name : {"e", "v", "e-mag", "v-mag", "e-gyros"}) {
+        const std::string kept = read_text(desk() / ("f" + std::string(name) + ".jsonl").c_str());
+        EXPECT_EQ(kept, read_text(desk() / ("s" + std::string(name) + ".jsonl").c_str())) << name;
+        EXPECT_EQ(kept.empty(), fault != Fault::gyro && std::string(name) == "e-gyros") << name;
+      }
+    }
+  }
+}
+
+// And each group what it says alone: no group changes another.
+// Verifies: REQ-241
+TEST(GroupsCommand, AGroupSaysInTheToolWhatItSaysAlone) {
+  (void)watched(Fault::shifted, {"--events", "e.jsonl", "--verdicts", "v.jsonl"});
+  for (const auto& [array, calibration, suffix] :
+       {std::tuple{"tool.toml", "acc.json", ""}, std::tuple{"tool.toml#mag", "mag.json", "-mag"}}) {
+    (void)run(desk(), {"monitor", "--array", array, "--calibration", calibration, "--log", "run.csv", "--events",
+                       "alone-e.jsonl", "--verdicts", "alone-v.jsonl"});
+    for (const char* const kind : {"e", "v"})
+      EXPECT_EQ(read_text(desk() / (std::string("alone-") + kind + ".jsonl").c_str()),
+                read_text(desk() / (kind + std::string(suffix) + ".jsonl").c_str()))
+          << array << kind;
+  }
+}
+
+TEST(GroupsCommand, AGrowingLogIsWatchedByAllGroups) {
+  const std::string log = Recording(16, 9, Fault::shifted).csv();
+  const std::size_t part = log.size() / 4;  // in the middle of a row
+  write_text(desk() / "growing.csv", log.substr(0, part));
+  const Process process(desk(), watching("growing.csv", {"--follow"}), -1, {});
+  ASSERT_TRUE(process.says("nominal"));
+  {
+    std::ofstream more(desk() / "growing.csv", std::ios::app);
+    more << log.substr(part);
+  }
+  ASSERT_TRUE(process.says("m2 ")) << "the shifted magnetometer, while the log may still grow";
+  process.interrupt();
+  const Outcome outcome = process.wait();
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(has(outcome.out, "== mag: 4 magnetometers")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "== gyros: 6 gyros")) << outcome.out;
+  EXPECT_TRUE(has(outcome.err, "interrupted")) << outcome.err;
+}
+
+// Negative: REQ-241
+TEST(GroupsCommand, ARowThatIsBadForOneGroupIsARowOfTheOthers) {
+  std::string log = Recording(16, 9, Fault::none).csv();
+  const std::string row = line_of(log, 100);
+  std::string bad = row;
+  bad.replace(bad.rfind(',') + 1, std::string::npos, "text");  // of a gyro
+  write_text(desk() / "bad.csv", with(log, row, bad));
+  const Outcome skipped = run(desk(), watching("bad.csv", {"--on-bad-row", "skip", "--json"}));
+  EXPECT_EQ(skipped.code, 0) << skipped.err;
+  EXPECT_TRUE(has(skipped.out, "\"rows_bad\":0")) << skipped.out;
+  EXPECT_TRUE(has(skipped.out, "\"rows_bad\":1")) << skipped.out;
+  const Outcome stopped = run(desk(), watching("bad.csv"));
+  EXPECT_EQ(stopped.code, 3) << stopped.err;
+  EXPECT_TRUE(has(stopped.err, "\"text\"")) << stopped.err;
+  EXPECT_TRUE(has(stopped.out, "gravity and the field agree")) << "the others go on";
+}
+
+// The dip is the second reference of three accelerometers.
+// Verifies: REQ-242
+TEST(GroupsCommand, TheDipNamesAMirroredAccelerometerOfThree) {
+  const Outcome healthy = watched(Fault::silent, {"--verdicts", "v.jsonl"});
+  EXPECT_EQ(healthy.code, 0) << healthy.out << healthy.err;
+  EXPECT_TRUE(has(healthy.out, "three accelerometers left: no fault is needed")) << healthy.out;
+  EXPECT_TRUE(has(read_text(desk() / "v.jsonl"), "\"dip\":{\"group\":\"mag\",\"verdict\":\"consistent\""));
+  EXPECT_TRUE(has(read_text(desk() / "v.jsonl"), "\"protected\":true"));
+  const Outcome mirrored =
+      watched(Fault::mirrored, {"--events", "e.jsonl", "--verdicts", "v.jsonl", "--report", "three.html"});
+  EXPECT_EQ(mirrored.code, 6) << mirrored.out << mirrored.err;
+  EXPECT_TRUE(has(mirrored.out, "a2 is faulty")) << mirrored.out;
+  const std::string events = read_text(desk() / "e.jsonl");
+  EXPECT_TRUE(has(events, "\"event\":\"dip_judged\",\"verdict\":\"fault\",\"named\":\"a2\"")) << events;
+  EXPECT_TRUE(has(read_text(desk() / "v.jsonl"), "\"verdict\":\"fault\",\"named\":\"a2\""));
+  const std::string page = read_text(desk() / "three.html");
+  EXPECT_TRUE(has(page, "contradicts the three accelerometers left"));
+  EXPECT_TRUE(has(page, "a2 is faulty"));
+}
+
+TEST(GroupsCommand, ThePageOfTheToolBeginsWithAllGroups) {
+  (void)watched(Fault::gyro, {"--report", "all.html"});
+  const auto data = nlohmann::json::parse(read_text(desk() / "all.json"));
+  ASSERT_EQ(data["groups"].size(), 2U);
+  EXPECT_EQ(data["groups"][0]["name"], "mag");
+  EXPECT_EQ(data["groups"][0]["trusted"], true);
+  EXPECT_EQ(data["groups"][0]["page"], "all-mag.html");
+  EXPECT_EQ(data["groups"][1]["trusted"], false);
+  EXPECT_EQ(data["groups"][1]["excluded"], nlohmann::json::array({"g6"}));
+  const std::string page = read_text(desk() / "all.html");
+  const std::size_t groups = page.find("Groups of the tool"), answer = page.find("1 Answer");
+  EXPECT_LT(groups, answer);
+  EXPECT_TRUE(has(page, "What not to trust"));
+  EXPECT_TRUE(has(page, "all-mag.html"));
+  EXPECT_FALSE(has(read_text(desk() / "all-mag.html"), "Groups of the tool"));
+}
+
 TEST(GroupsCommand, AShiftedAndAStuckMagnetometerAreNamed) {
   const Outcome shifted = watched(Fault::shifted);
   EXPECT_TRUE(has(shifted.out, "excluded    m2")) << shifted.out;
@@ -189,8 +309,10 @@ TEST(GroupsCommand, AGroupTurnedAgainstTheOtherIsToldByTheDip) {
     EXPECT_TRUE(has(read_text(desk() / (std::string(page) + ".html").c_str()), "Usable for survey: orientation only"))
         << page;
   }
-  const Outcome json = watched(Fault::turned, {"--json"});
+  const Outcome json = watched(Fault::turned, {"--json", "--events", "turned.jsonl"});
   EXPECT_EQ(json.code, 6);
+  for (const std::string& lines : {json.out, read_text(desk() / "turned.jsonl")})
+    EXPECT_TRUE(has(lines, "\"event\":\"dip_disagrees\",\"dip_deg\":")) << lines;
   EXPECT_TRUE(has(json.out, "\"blocks_disagreeing\":")) << json.out;
   EXPECT_TRUE(has(json.out, "\"group\":\"mag\"")) << json.out;
 }
@@ -238,10 +360,6 @@ TEST(GroupsCommand, WhatIsAskedForWronglyIsSaid) {
     EXPECT_TRUE(has(outcome.err, wrong.says)) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "Remedy: ")) << outcome.err;
   }
-  const Outcome stream =
-      run(desk(), {"monitor", "--array", "tool.toml", "--calibration", "acc.json", "--group", "gyros"}, "run.csv");
-  EXPECT_EQ(stream.code, 2);
-  EXPECT_TRUE(has(stream.err, "standard input")) << stream.err;
 }
 
 TEST(GroupsCommand, LimitsAreInTheUnitsOfTheGroup) {

@@ -282,6 +282,48 @@ TEST(LogReader, ALiveStreamIsNotHeldBack) {
   EXPECT_EQ(sample.time_s, 1.0);
 }
 
+/// The array, reading these columns of the log.
+ArrayFile array_over(std::initializer_list<const char*> columns) {
+  ArrayFile out = array_of();
+  out.input.sensor_columns.assign(columns.begin(), columns.end());
+  return out;
+}
+
+// Verifies: REQ-241
+TEST(LogReader, SeveralArraysReadOnePassOfAStream) {
+  PipedInput input;
+  const ArrayFile one = array_over({"a", "b", "c", "d"}), other = array_over({"w", "x", "y", "z"});
+  input.say("t_s,a,b,c,d,w,x,y,z\n0,1,2,3,4,5,6,7,8\n0.01,1");
+  auto readers = LogReader::open("-", {&one, &other}, BadRowPolicy::skip);
+  ASSERT_TRUE(readers.has_value()) << readers.error().text();
+  Sample first, second;
+  ASSERT_EQ((*readers)[0].next(first), Next::row) << "although the pipe is still open";
+  ASSERT_EQ((*readers)[1].next(second), Next::row);
+  EXPECT_EQ(first.raw[0], 1.0);
+  EXPECT_EQ(second.raw[0], 5.0);
+  // A row that is bad for one is a row of the other; each stands where it has read to.
+  input.say(",1,1,1,bad,1,1,1\n0.02,9,9,9,9,9,9,9,9\n0.03,10,1,1,1,11,1,1,1\n");
+  ASSERT_EQ((*readers)[1].next(second), Next::row);
+  EXPECT_EQ(second.time_s, 0.02);
+  for (const double time_s : {0.01, 0.02}) {
+    ASSERT_EQ((*readers)[0].next(first), Next::row);
+    EXPECT_EQ(first.time_s, time_s);
+  }
+  EXPECT_EQ((*readers)[1].statistics().rows_bad, 1U);
+  EXPECT_EQ((*readers)[0].statistics().rows_bad, 0U);
+  readers->erase(readers->begin());  // one has ended: the other reads on
+  ASSERT_EQ(readers->front().next(second), Next::row);
+  EXPECT_EQ(second.raw[0], 11.0);
+}
+
+TEST(LogReaderRefuses, AColumnThatOneOfSeveralArraysMisses) {
+  const ArrayFile one = array_of(), other = array_over({"w", "x", "y", "z"});
+  const std::string path = written("log.csv", kHeader + "0,1,2,3,4\n");
+  const auto readers = LogReader::open(path, {&one, &other}, BadRowPolicy::stop);
+  ASSERT_FALSE(readers.has_value());
+  EXPECT_EQ(readers.error().field, "w");
+}
+
 TEST(LogReader, ASignalEndsTheWaitForALiveStream) {
   PipedInput input;
   input.say(kHeader + "0,1,2,3,4\n");

@@ -172,7 +172,7 @@ TEST(ScenarioPage, TheOfTheDocumentationIsTrue) {
                         page->find("`[[" + key + "]]`") != std::string::npos;
     EXPECT_TRUE(stands) << key;
   }
-  EXPECT_EQ(count, 64) << "of nine sections";
+  EXPECT_EQ(count, 68) << "of nine sections";
 }
 
 }  // namespace

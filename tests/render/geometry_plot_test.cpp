@@ -18,7 +18,7 @@ render::GeometryPictures pictures() {
   render::GeometryPictures out;
   out.name = "it's a tool";
   out.samples = 32;
-  out.sigma_mg0 = 0.2;
+  out.sigma_fine = 0.2;
   for (int inclination = 0; inclination <= 180; inclination += 30) {
     for (int toolface = 0; toolface <= 360; toolface += 30)
       out.map.push_back({1.0 * inclination, 1.0 * toolface, 1.0 + 0.001 * toolface, 0.5 + 0.001 * inclination,

@@ -80,6 +80,25 @@ double worst_row(const GyroCommissioning& run, const GyroTool& tool) {
   return out;
 }
 
+struct Watched {
+  RateRun run;
+  std::size_t events = 0;
+};
+/// The whole log, as gyros without accelerometers beside them.
+Watched watched(const io::ArrayFile& array, const LogSpec& log, const io::GyroCalibration* calibration = nullptr) {
+  Watched out;
+  const auto watch = RateWatch::make(array, false, calibration);
+  EXPECT_TRUE(watch.has_value()) << watch.error().text();
+  (*watch)->tell([&out](const RateEvent&) {
+    ++out.events;
+    return io::FileExpected<void>();
+  });
+  std::vector<LogShare> shares = {{&array, watch->get(), {}}};
+  EXPECT_TRUE(run_log(log, shares).has_value());
+  out.run = *(*watch)->end(std::move(shares.front().end));
+  return out;
+}
+
 bool says(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 // Verifies: REQ-245
@@ -123,19 +142,18 @@ TEST(GyroCommissioning, TheMonitorGoesByTheCalibratedReadingsAndBounds) {
   const GyroCommissioning run = bench.run();
   ASSERT_TRUE(run.refusal.empty()) << run.refusal;
   const LogSpec other{bench.desk.put("other.csv", bench.tool.log(ToolWaves{{1.5, 2.0, 1.2}}, 40.0, 21))};
-  const auto by_datasheet = run_rates(bench.gyros, other, nullptr);
-  const auto calibrated = run_rates(bench.gyros, other, nullptr, &run.found);
-  ASSERT_TRUE(by_datasheet.has_value() && calibrated.has_value());
-  EXPECT_TRUE(calibrated->calibrated);
-  EXPECT_FALSE(by_datasheet->calibrated);
-  EXPECT_TRUE(calibrated->events.empty()) << "healthy gyros";
-  EXPECT_GT(calibrated->bounded_blocks, 0U);
-  EXPECT_LT(calibrated->bound_sum_radps, 0.5 * by_datasheet->bound_sum_radps);
+  const auto by_datasheet = watched(bench.gyros, other);
+  const auto calibrated = watched(bench.gyros, other, &run.found);
+  EXPECT_TRUE(calibrated.run.calibrated);
+  EXPECT_FALSE(by_datasheet.run.calibrated);
+  EXPECT_EQ(calibrated.events, 0U) << "healthy gyros";
+  EXPECT_GT(calibrated.run.bounded_blocks, 0U);
+  EXPECT_LT(calibrated.run.bound_sum_radps, 0.5 * by_datasheet.run.bound_sum_radps);
   // A scale that changes by 5 % passes within the datasheet's bounds and not within those of the calibration.
   const auto faulty = [](std::size_t i, double t_s, double y) { return i == 4 && t_s > 20.0 ? 1.05 * y : y; };
   const LogSpec failing{bench.desk.put("failing.csv", bench.tool.log(ToolWaves{}, 40.0, 22, faulty))};
-  EXPECT_TRUE(run_rates(bench.gyros, failing, nullptr)->ever_excluded.empty());
-  EXPECT_TRUE(run_rates(bench.gyros, failing, nullptr, &run.found)->ever_excluded.has(4));
+  EXPECT_TRUE(watched(bench.gyros, failing).run.ever_excluded.empty());
+  EXPECT_TRUE(watched(bench.gyros, failing, &run.found).run.ever_excluded.has(4));
   // Stability adds to what the calibration leaves of the bias.
   const auto group = rate_group(bench.gyros, &run.found);
   ASSERT_TRUE(group.has_value());

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace rate_run_test {
 namespace {
@@ -84,56 +85,104 @@ class Log {
       (std::filesystem::temp_directory_path() / ("rates_" + std::to_string(std::random_device{}()) + ".csv")).string();
 };
 
+struct Outcome {
+  RateRun run;
+  std::vector<RateEvent> events;
+};
+
+/// All rows of the log; `rest`: blocks at rest that the accelerometers tell of as they end, once every 0.4 s up to
+/// then.
+Outcome watched(const io::ArrayFile& array, const LogSpec& log, double rest_until_s = 0.0) {
+  Outcome out;
+  const auto watch = RateWatch::make(array, rest_until_s > 0.0);
+  EXPECT_TRUE(watch.has_value()) << watch.error().text();
+  (*watch)->tell([&out](const RateEvent& event) {
+    out.events.push_back(event);
+    return io::FileExpected<void>();
+  });
+  /// Stands for the accelerometers of the same log.
+  struct Rest final : RowTaker {
+    io::FileExpected<void> take(const stepping::Rows& rows) override {
+      const double now_s = rows.row.front().time_s;
+      const int row = static_cast<int>(std::lround(100.0 * now_s));
+      if (row % 40 != 39) return {};
+      TrackPoint block;
+      block.begin_s = now_s - 0.395;
+      block.end_s = now_s;
+      return now_s < until_s ? gyros->rested(block) : gyros->moved(now_s);
+    }
+    RateWatch* gyros = nullptr;
+    double until_s = 0.0;
+  } rest;
+  rest.gyros = watch->get();
+  rest.until_s = rest_until_s;
+  std::vector<LogShare> shares = {{&array, watch->get(), {}}};
+  if (rest_until_s > 0.0) shares.push_back({&array, &rest, {}});
+  EXPECT_TRUE(run_log(log, shares));
+  out.run = *(*watch)->end(std::move(shares.front().end));
+  return out;
+}
+
 TEST(RateRun, HealthyGyrosStayInServiceWithABound) {
-  const auto run = run_rates(gyros(), Log(20, -1, 0.0, 0.0).spec(), nullptr);
-  ASSERT_TRUE(run.has_value()) << run.error().text();
-  EXPECT_EQ(run->samples, 2000U);
-  EXPECT_EQ(run->samples_at_rest, 0U) << "nobody said so";
-  EXPECT_TRUE(run->events.empty());
-  EXPECT_TRUE(run->ever_excluded.empty());
-  EXPECT_GT(run->bounded_blocks, 0U);
-  EXPECT_GT(run->worst_bound_radps, 0.0);
+  const auto [run, events] = watched(gyros(), Log(20, -1, 0.0, 0.0).spec());
+  EXPECT_EQ(run.samples, 2000U);
+  EXPECT_EQ(run.samples_at_rest, 0U) << "nobody said so";
+  EXPECT_TRUE(events.empty());
+  EXPECT_TRUE(run.ever_excluded.empty());
+  EXPECT_GT(run.bounded_blocks, 0U);
+  EXPECT_GT(run.worst_bound_radps, 0.0);
 }
 
 TEST(RateRun, AFaultyGyroIsExcludedAndNamedInAnEvent) {
   const io::ArrayFile array = gyros();
-  const auto run = run_rates(array, Log(20, 2, 30.0, 7.0).spec(), nullptr);
-  ASSERT_TRUE(run.has_value()) << run.error().text();
-  EXPECT_EQ(run->last.excluded, SensorSet::of(2));
-  EXPECT_EQ(run->ever_excluded, SensorSet::of(2));
-  ASSERT_FALSE(run->events.empty());
-  EXPECT_GE(run->events.front().time_s, 7.0);
-  EXPECT_LT(run->events.front().time_s, 7.5);
-  const std::string line = rate_event_json(run->events.back(), array.array);
+  const auto [run, events] = watched(array, Log(20, 2, 30.0, 7.0).spec());
+  EXPECT_EQ(run.last.excluded, SensorSet::of(2));
+  EXPECT_EQ(run.ever_excluded, SensorSet::of(2));
+  ASSERT_FALSE(events.empty());
+  EXPECT_GE(events.front().time_s, 7.0);
+  EXPECT_LT(events.front().time_s, 7.5);
+  const std::string line = rate_event_json(events.back(), array.array);
   EXPECT_NE(line.find("\"excluded\":[\"g3\"]"), std::string::npos) << line;
 }
 
 TEST(RateRun, AGyroThatDeliversNothingIsSaid) {
-  const auto run = run_rates(gyros(), Log(20, 3, std::nan(""), 7.0).spec(), nullptr);
-  ASSERT_TRUE(run.has_value()) << run.error().text();
-  EXPECT_EQ(run->silent, SensorSet::of(3));
-  EXPECT_NEAR(run->silent_s, 13.0, 0.05);
-  EXPECT_TRUE(run->ever_excluded.empty()) << "missing data blames nobody";
-  EXPECT_TRUE(run_rates(gyros(), Log(20, -1, 0.0, 0.0).spec(), nullptr)->silent.empty());
+  const RateRun run = watched(gyros(), Log(20, 3, std::nan(""), 7.0).spec()).run;
+  EXPECT_EQ(run.silent, SensorSet::of(3));
+  EXPECT_NEAR(run.silent_s, 13.0, 0.05);
+  EXPECT_TRUE(run.ever_excluded.empty()) << "missing data blames nobody";
+  EXPECT_TRUE(watched(gyros(), Log(20, -1, 0.0, 0.0).spec()).run.silent.empty());
 }
 
-TEST(RateRun, RestThatIsKnownCounts) {
-  std::vector<TrackPoint> track;
-  for (int k = 0; k <= 10; ++k) track.push_back({0.4 * k, true, {0.0, 0.0, 1.0}, 0.0});
-  RestTimes rest(track);
-  const auto run = run_rates(gyros(), Log(20, -1, 0.0, 0.0).spec(), &rest);
-  ASSERT_TRUE(run.has_value());
-  EXPECT_NEAR(static_cast<double>(run->samples_at_rest), 400.0, 2.0);
-  EXPECT_EQ(run->turned_at_rest, 0);
-  EXPECT_TRUE(run->ever_off_at_rest.empty());
+// Rows wait for the block that they are in: rest is known at each of its rows, and at none beside.
+// Verifies: REQ-241
+TEST(RateRun, RestIsKnownAtTheRowsOfABlock) {
+  const RateRun run = watched(gyros(), Log(20, -1, 0.0, 0.0).spec(), 4.0).run;
+  EXPECT_EQ(run.samples, 2000U);
+  EXPECT_EQ(run.samples_at_rest, 400U);
+  EXPECT_EQ(run.turned_at_rest, 0);
+  EXPECT_TRUE(run.ever_off_at_rest.empty());
+}
+
+/// Rows do not pile up where the accelerometers say nothing.
+TEST(RateRun, SilentAccelerometersHoldNoRowsBack) {
+  const io::ArrayFile array = gyros();
+  const auto watch = RateWatch::make(array, true);
+  ASSERT_TRUE(watch.has_value());
+  std::size_t early = 0;
+  (*watch)->tell([&early](const RateEvent&) {
+    ++early;
+    return io::FileExpected<void>();
+  });
+  std::vector<LogShare> shares = {{&array, watch->get(), {}}};
+  ASSERT_TRUE(run_log(Log(20, 2, 30.0, 3.0).spec(), shares));
+  EXPECT_GT(early, 0U) << "before the end";
+  EXPECT_EQ((*watch)->end(std::move(shares.front().end))->samples, 2000U);
 }
 
 TEST(RateRun, BadInputIsAnsweredWithItsPlace) {
-  const auto missing = run_rates(gyros(), {"no_such_file.csv", io::BadRowPolicy::stop, false, false}, nullptr);
-  ASSERT_FALSE(missing.has_value());
   io::ArrayFile wrong = gyros();
   wrong.rate.rate_bound_radps = std::nan("");
-  const auto refused = run_rates(wrong, Log(1, -1, 0.0, 0.0).spec(), nullptr);
+  const auto refused = RateWatch::make(wrong, false);
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().file, "tool.toml#gyros");
   EXPECT_FALSE(refused.error().remedy.empty());

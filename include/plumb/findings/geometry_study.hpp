@@ -29,6 +29,7 @@ struct GeometrySubject {
   Visited visited;  ///< attitudes of the stations of the calibration, where it keeps them
   GravityReference gravity;
   TestSettings settings;
+  io::FieldKind field() const noexcept { return file ? file->field : io::FieldKind::gravity; }
 };
 
 /// What a sensor shows while the tool stands or lies; a mistake of sign or column is seen here.
@@ -45,7 +46,7 @@ struct HiddenWiring {
   WiringEffect effect;
 };
 
-/// One attitude of a regular grid; toolface varies fastest.
+/// One attitude of a regular grid; toolface varies fastest. Of a magnetic group the attitude is that of the field.
 struct AttitudePoint {
   double inclination_deg = 0.0, toolface_deg = 0.0;
   double guaranteed_above_g0 = 0.0;  ///< every larger fault of one sensor is isolated here
@@ -55,7 +56,7 @@ struct AttitudePoint {
 
 /// The protection level of the same axes with another noise.
 struct ProtectionPoint {
-  double sigma_mg0 = 0.0;  ///< noise of a sample
+  double sigma_fine = 0.0;  ///< noise of a sample in the fine unit of the field: mg0, nT
   double one_sample_deg = 0.0, block_deg = 0.0;
 };
 

@@ -59,6 +59,12 @@ class LogReader {
   /// Opens the file and reads the header row. Errors: unreadable, empty, a column missing or named twice.
   static FileExpected<LogReader> open(const std::string& path, const ArrayFile& array, BadRowPolicy policy);
 
+  /// One reader an array, over one pass of the bytes: each stands where it has read to, and standard input serves them
+  /// all. They are read by one thread, and a reader that is no longer read is destroyed: the others keep for it what
+  /// they read.
+  static FileExpected<std::vector<LogReader>> open(const std::string& path, const std::vector<const ArrayFile*>& arrays,
+                                                   BadRowPolicy policy);
+
   LogReader(LogReader&& other) noexcept;
   LogReader& operator=(LogReader&& other) noexcept;
   LogReader(const LogReader&) = delete;

@@ -35,6 +35,7 @@ class LogWriter {
   enum class Columns : std::uint8_t {
     samples,  ///< all but the rates of turn and the times of chips
     all,      ///< these too, where the array file names them
+    tool,     ///< these, and the sensors of the other groups of the tool
   };
   enum class Form : std::uint8_t {
     by_name,  ///< a path that ends in ".ulg" or ".ulog" becomes a ULog, any other a CSV; ".plog" is refused
@@ -48,6 +49,7 @@ class LogWriter {
     double depth_m = std::numeric_limits<double>::quiet_NaN();  ///< not finite: the cell stays empty
     Rotation second_rotation{};                                 ///< by the second gyro
     ClockTimes clock_s = kNoClockTimes;                         ///< NaN: the cell stays empty
+    const Sample* groups = nullptr;                             ///< with Columns::tool: one a group of the array file
   };
 
   /// Columns: time, station, count, temperature, depth (those that [input] names), the columns of `where` with
@@ -68,13 +70,14 @@ class LogWriter {
   FileExpected<void> commit();
 
  private:
-  LogWriter(OutputFile file, const InputSpec& input, Columns columns);
+  LogWriter(OutputFile file, const ArrayFile& array, Columns columns);
   void choose_constants();
   FileExpected<void> begin_csv();
   FileExpected<void> begin_ulog();
 
   OutputFile file_;
   InputSpec input_;  ///< `where` without what has a role already, rates of turn only where they are written
+  std::vector<InputSpec> groups_;  ///< with Columns::tool
   std::string line_;
   std::unique_ptr<UlogWriter> ulog_;
 };

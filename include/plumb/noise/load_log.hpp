@@ -19,8 +19,9 @@ namespace noise {
 /// What the readings of a column are in.
 struct ColumnUnit {
   std::string name;           ///< "m/s^2" for every unit of acceleration; empty: not known
-  bool acceleration = false;  ///< the readings are in m/s^2
+  bool acceleration = false;  ///< the readings are in m/s^2; of another field in nT or rad/s
   bool sensor = true;         ///< false: the name tells of something else than an accelerometer, a gyro for example
+  io::FieldKind field = io::FieldKind::gravity;
 };
 /// By the end of a column's name: "_mps2", "_cnt", "_V", "_radps".
 ColumnUnit unit_of_name(const std::string& name);
@@ -41,10 +42,10 @@ struct LoadOptions {
 };
 
 struct LoadedLog {
-  StillLog log;                       ///< its columns are named as in the array file where there is one
-  std::vector<ColumnUnit> units;      ///< one a column
-  std::vector<double> declared;       ///< noise that the array file states [m/s^2], one a column; empty: no array file
-  std::string time_column;            ///< empty: by the rate
+  StillLog log;                   ///< its columns are named as in the array file where there is one
+  std::vector<ColumnUnit> units;  ///< one a column
+  std::vector<double> declared;   ///< noise that the array file states, in the unit of its column; empty: no array file
+  std::string time_column;        ///< empty: by the rate
   std::vector<std::string> left_out;  ///< columns without numbers
   std::uint64_t rows_bad = 0;
   bool complete = true;  ///< false: the rest of a very long file was not read

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plumb/findings/detection_sizes.hpp"
+#include "plumb/io/field.hpp"
 #include "plumb/io/json_fields.hpp"
 
 namespace plumb {
@@ -13,7 +14,7 @@ namespace render {
 using Json = nlohmann::ordered_json;
 
 /// Ends with a line feed.
-std::string sizes_text(const findings::SizeTable& table, int sensors);
+std::string sizes_text(const findings::SizeTable& table, int sensors, io::FieldKind field);
 /// SI units in the names, null where there is no such size.
 Json sizes_json(const findings::SizeTable& table, int sensors);
 

@@ -17,8 +17,9 @@ struct GeometryPictures {
   using Level = findings::ProtectionPoint;
 
   std::string name;
+  io::FieldKind field = io::FieldKind::gravity;
   int samples = 0;            ///< of a block
-  double sigma_mg0 = 0.0;     ///< of this array: marked
+  double sigma_fine = 0.0;    ///< of this array: marked
   std::vector<Point> map;     ///< empty: no such picture
   std::vector<Level> levels;  ///< empty: no such picture
 };

@@ -21,7 +21,7 @@ inline constexpr int kNoiseVersion = 1;
 struct NoiseAxis {
   noise::AxisStudy study;
   noise::ColumnUnit unit;
-  std::optional<double> declared_mps2;  ///< by the array file
+  std::optional<double> declared;  ///< by the array file, in the unit of the readings
 };
 
 struct NoiseReport {

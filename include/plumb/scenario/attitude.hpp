@@ -73,6 +73,10 @@ class Passage {
   /// Unit vector at part 0 .. 1 of the way, starting and ending at rest (smoothstep).
   Vec3 at(double part) const noexcept;
   double angle_rad() const noexcept { return angle_rad_; }
+  /// Unit vector that what stands still on the ground turns about, by `angle_rad`.
+  Vec3 axis() const noexcept { return cross(from_, across_); }
+  /// Part of the angle at a part of the time.
+  static double smooth(double part) noexcept { return part * part * (3.0 - 2.0 * part); }
 
  private:
   Vec3 from_;

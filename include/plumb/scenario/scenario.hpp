@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tl/expected.hpp>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "plumb/scenario/attitude.hpp"
 #include "plumb/scenario/delivery.hpp"
 #include "plumb/scenario/fault.hpp"
+#include "plumb/scenario/heading.hpp"
 #include "plumb/scenario/injector.hpp"
 #include "plumb/scenario/noise.hpp"
 #include "plumb/scenario/random.hpp"
@@ -36,9 +38,29 @@ struct DepthLaw {
   double heat_degc_per_m = 0.0;    ///< growth of temperature with depth: 0.03 is ordinary
 };
 
+/// What the sensors of a tool measure. The attitudes are the same, and figures "in m/s^2" are in the inside unit of the
+/// field (plumb/io/field.hpp).
+enum class Sensed : std::uint8_t {
+  gravity,
+  magnetic,  ///< a vector of known length, `dip_rad` below the horizon, towards north
+  rate,      ///< how the tool turns against the ground; without that of the Earth
+};
+
+/// A field beside the Earth's, that magnetometers see.
+struct Interference {
+  Vec3 field_mps2{};    ///< zero: none
+  bool of_tool = true;  ///< in the tool frame, as of magnetised steel; else north, east, down, as of a casing
+  double from_s = 0.0;  ///< on the log's own time axis
+  double until_s = std::numeric_limits<double>::infinity();
+};
+
 struct Scenario {
   Tool tool;
-  double gravity_mps2 = kG0_mps2;  ///< at the first station
+  double gravity_mps2 = kG0_mps2;  ///< at the first station; the length of the magnetic field
+  Sensed sensed = Sensed::gravity;
+  double dip_rad = 0.0;
+  Interference interference;
+  std::uint64_t part = 0;  ///< tells the groups of one tool apart: each has noise of its own; 0: of the seed itself
   AttitudeLaw attitudes = FixedAttitude{};
   double rate_hz = 100.0;
   double dwell_s = 2.0;              ///< at rest at every station
@@ -59,9 +81,9 @@ struct Scenario {
 
 /// What is really the case at one sample.
 struct Truth {
-  Vec3 gravity_mps2{};            ///< in the tool frame, positive down; vibration omitted
+  Vec3 gravity_mps2{};            ///< in the tool frame, positive down; vibration omitted. Of magnetometers: the field
   Vec3 body_acceleration_mps2{};  ///< vibration, in the tool frame
-  Vec3 rate_radps{};              ///< how the tool turns (`Scenario::turning` alone), tool frame
+  Vec3 rate_radps{};              ///< how the tool turns, tool frame; of accelerometers `Scenario::turning` alone
   double depth_m = 0.0;           ///< below the first station
   std::uint32_t station = 0;      ///< counted from 1; while moving: the one left behind
   bool moving = false;
@@ -101,12 +123,15 @@ class Simulator {
   class Healthy;  // rows before any fault, for channels that are late
   Place place_of(std::uint64_t row) const noexcept;
   Truth truth_at(const Place& place) const noexcept;
+  void feel_field(const Place& place, const Vec3& down, Truth& truth) const noexcept;
+  void feel_rate(const Place& place, Truth& truth) const noexcept;
   Sample healthy(const Place& place, const Truth& truth) const noexcept;
   void remember_onsets() noexcept;
 
   Scenario scenario_;
   std::vector<Vec3> directions_;
   std::vector<Passage> passages_;
+  Headings headings_;                      ///< where something else than gravity is sensed
   std::vector<std::uint32_t> roll_group_;  ///< by station; empty: no tags
   std::vector<Stream> noise_;
   std::vector<Instability> instability_;  ///< by sensor; empty: none

@@ -1,4 +1,4 @@
-/// What one group of sensors measured while the tool stood still, kept for the checks between groups.
+/// What one group of sensors measures while the tool stands still, block by block, for what is beside it.
 #pragma once
 
 #include <vector>
@@ -9,56 +9,39 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace session {
 
-/// At the end of a block at rest.
+/// A block at rest.
 struct TrackPoint {
-  double time_s = 0.0;
-  bool usable = false;     ///< the direction may be used, and its error has a bound
-  Vec3 vector{};           ///< tool frame; the length does not matter
-  double bound_rad = 0.0;  ///< of the direction in the housing (`Verdict::protection_level_housing_rad`)
+  double begin_s = 0.0, end_s = 0.0;  ///< of its first row and its last
+  bool usable = false;                ///< the direction may be used, and its error has a bound
+  Vec3 vector{};                      ///< tool frame, inside units
+  double sigma = 0.0;                 ///< the largest of its components, noise and calibration
+  double bound_rad = 0.0;             ///< of the direction in the housing (`Verdict::protection_level_housing_rad`)
+
+  /// The tool stood in one attitude through both.
+  bool meets(const TrackPoint& other) const noexcept { return begin_s <= other.end_s && other.begin_s <= end_s; }
 };
 
-class GroupTrack : public VerdictSink {
+class TrackListener {
  public:
+  TrackListener() = default;
+  TrackListener(const TrackListener&) = delete;
+  TrackListener& operator=(const TrackListener&) = delete;
+  virtual ~TrackListener() = default;
+  virtual io::FileExpected<void> rested(const TrackPoint& block) = 0;
+  /// The block that ended at this time was not at rest.
+  virtual io::FileExpected<void> moved(double) { return {}; }
+};
+
+class GroupTrack final : public VerdictSink {
+ public:
+  void tell(TrackListener& listener) { listeners_.push_back(&listener); }
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
-  stepping::Wanted wanted() const override { return stepping::Wanted::blocks; }
-  const std::vector<TrackPoint>& points() const noexcept { return points_; }
 
  private:
-  std::vector<TrackPoint> points_;
+  std::vector<TrackListener*> listeners_;
+  double begin_s_ = 0.0;
+  int fill_ = 0;  ///< of the block so far
 };
-
-/// The times at rest that a track shows: between two blocks that follow one another without a pause.
-class RestTimes {
- public:
-  explicit RestTimes(const std::vector<TrackPoint>& track);
-  /// Of times that do not decrease from call to call.
-  bool at_rest(double time_s) noexcept;
-
- private:
-  struct Span {
-    double begin_s, end_s;
-  };
-  std::vector<Span> spans_;
-  std::size_t next_ = 0;
-};
-
-/// Gravity and the magnetic field of one tool, held against the dip that is expected where it is.
-struct DipCheck {
-  int checked = 0;                         ///< blocks in which both directions were usable
-  int disagreeing = 0;                     ///< of those: further off than both bounds and the reference allow
-  double least_rad = 0.0, most_rad = 0.0;  ///< the dips measured
-  double worst_excess_rad = 0.0;           ///< beyond what is allowed
-  double widest_allowed_rad = 0.0;
-  double first_s = 0.0;  ///< of the first that disagrees
-};
-
-/// Standard deviations of the reference that are allowed: two-sided, 1e-5.
-inline constexpr double kDipSigmas = 4.42;
-
-/// |asin(g.b) - dip| <= bound of g + bound of b + kDipSigmas sigma, at every block of `field` with one of `gravity`
-/// within `together_s`.
-DipCheck check_dip(const std::vector<TrackPoint>& gravity, const std::vector<TrackPoint>& field,
-                   const io::MagneticReference& reference, double together_s);
 
 }  // namespace session
 }  // namespace PLUMB_ABI

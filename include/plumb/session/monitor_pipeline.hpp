@@ -15,6 +15,7 @@
 #include "plumb/paper/paper_monitor.hpp"
 #include "plumb/scenario/host_request.hpp"
 #include "plumb/session/detail/step_rows.hpp"
+#include "plumb/session/log_run.hpp"
 #include "plumb/session/log_spec.hpp"
 
 namespace plumb {
@@ -44,9 +45,10 @@ class VerdictSink {
 /// One JSON line per change (--events).
 class EventsFile : public VerdictSink {
  public:
-  /// `live`: flush each line, someone is reading along.
-  EventsFile(io::OutputFile file, const SensorArray& array, bool live)
-      : file_(std::move(file)), array_(array), consistent_(live) {}
+  /// `live`: flush each line, someone is reading along. `group`: each line says that it is of this group; empty: none
+  /// does.
+  EventsFile(io::OutputFile file, const SensorArray& array, bool live, std::string group = "")
+      : file_(std::move(file)), array_(array), consistent_(live), group_(std::move(group)) {}
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   stepping::Wanted wanted() const override { return stepping::Wanted::changes; }
   /// A line of somebody else, its newline to be added, among the others.
@@ -57,7 +59,19 @@ class EventsFile : public VerdictSink {
   io::OutputFile file_;
   const SensorArray& array_;
   bool consistent_;
+  std::string group_;
   std::string line_;
+};
+
+/// What somebody else has to say of a verdict.
+class VerdictNote {
+ public:
+  VerdictNote() = default;
+  VerdictNote(const VerdictNote&) = delete;
+  VerdictNote& operator=(const VerdictNote&) = delete;
+  virtual ~VerdictNote() = default;
+  /// To the JSON object of the verdict that is taken just now: a member before its closing brace, or nothing.
+  virtual void append(const Verdict& verdict, std::string& object) const = 0;
 };
 
 /// One JSON line per block, or per sample (--verdicts, --every-sample).
@@ -76,28 +90,45 @@ class VerdictsFile : public VerdictSink {
     return every_sample_ ? stepping::Wanted::samples : stepping::Wanted::blocks;
   }
   io::FileExpected<void> commit() { return file_.commit(); }
+  void add(const VerdictNote& note) { notes_.push_back(&note); }
 
  private:
   io::OutputFile file_;
   const SensorArray& array_;
   Mat3 frame_;
   io::FieldKind field_;
+  std::vector<const VerdictNote*> notes_;
   bool every_sample_;
   bool consistent_;
   std::string line_;
 };
 
-struct MonitorRun {
+struct MonitorRun : LogEnd {
   Verdict last;
   std::uint64_t samples = 0;
   std::uint64_t blocks = 0;  ///< blocks at rest, each judged once
   std::uint64_t transitions = 0;
   stepping::RunCounts counts;
   double last_time_s = 0.0;
-  io::LogStatistics log;
-  bool interrupted = false;
-  bool stopped = false;  ///< the log ended in an error; what came before counts
-  io::FileError stop;
+};
+
+/// Rows through a monitor and its verdicts to the sinks, which outlive it.
+class StepperRun final : public RowTaker {
+ public:
+  StepperRun(stepping::Stepper& stepper, const std::vector<VerdictSink*>& sinks);
+  io::FileExpected<void> take(const stepping::Rows& rows) override;
+  MonitorRun end(LogEnd end);
+
+ private:
+  io::FileExpected<void> step(const stepping::Rows& rows);
+
+  stepping::Stepper& stepper_;
+  const std::vector<VerdictSink*>& sinks_;
+  MonitorRun run_;
+  const VerdictSink* in_motion_ = nullptr;
+  stepping::Wanted wanted_ = stepping::Wanted::changes;
+  stepping::Said said_;
+  stepping::Rows one_;
 };
 
 /// The sensors of which the array file states another noise than when the calibration was made.
@@ -109,9 +140,12 @@ SensorArray calibrated_array(const io::ArrayFile& array, const Calibration& cali
 /// must not improve.
 SensorArray array_to_certify(const io::ArrayFile& array, const Calibration& calibration);
 
-/// A monitor with this calibration, switched on; on the heap, because at capacity 24 it is 2 MB large. Without one
-/// (null) it makes its own, from the datasheet in the array file. `days` since the calibration was made, here and
-/// below.
+/// What a monitor with this calibration is configured with. Without one (null) it makes its own, from the datasheet in
+/// the array file. `days` since the calibration was made, here and below.
+io::FileExpected<std::unique_ptr<MonitorSetup>> monitor_setup(const io::ArrayFile& array,
+                                                              const Calibration* calibration, double days = 0.0);
+
+/// A monitor with this calibration, switched on; on the heap, because at capacity 24 it is 2 MB large.
 io::FileExpected<std::unique_ptr<HealthMonitor>> make_monitor(const io::ArrayFile& array,
                                                               const Calibration* calibration, double days = 0.0);
 

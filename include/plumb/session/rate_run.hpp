@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,7 +12,7 @@
 #include "plumb/io/log_reader.hpp"
 #include "plumb/motion/rate_monitor.hpp"
 #include "plumb/session/group_track.hpp"
-#include "plumb/session/log_spec.hpp"
+#include "plumb/session/log_run.hpp"
 #include "plumb/session/rate_group.hpp"
 
 namespace plumb {
@@ -27,7 +29,7 @@ struct RateEvent {
 
 inline constexpr double kSilent_s = 1.0;
 
-struct RateRun {
+struct RateRun : LogEnd {
   RateVerdict last;
   std::uint64_t samples = 0, samples_at_rest = 0, blocks = 0;
   SensorSet ever_excluded, ever_off_at_rest;
@@ -38,23 +40,49 @@ struct RateRun {
   double worst_bound_radps = 0.0;  ///< of the means of two blocks, where they were valid
   double bound_sum_radps = 0.0;
   std::uint64_t bounded_blocks = 0;
-  std::vector<RateEvent> events;
-  io::LogStatistics log;
   bool calibrated = false;
   double common = 0.0;  ///< `RateGroup::common`: in the bounds
-  bool interrupted = false, stopped = false;
-  io::FileError stop;
 };
 
 /// A row of a log as `RateMonitor` takes it, force and rest not known. `model`: that of the datasheet in `array`, or
 /// of its calibration.
 RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, const Sample& sample);
 
-/// `rest`: when the tool stands still, by its accelerometers; null: not known. Readings, axes and bounds are those of
-/// the calibration; null: of the datasheet in the array file, bias and scale as stated there. Errors: the log cannot be
-/// opened; the monitor refuses the setup.
-io::FileExpected<RateRun> run_rates(const io::ArrayFile& array, const LogSpec& log, RestTimes* rest,
-                                    const io::GyroCalibration* calibration = nullptr);
+/// Readings, axes and bounds are those of the calibration; without one of the datasheet in the array file.
+///
+/// Whether the tool stood still at a row is known once the block of the accelerometers ends which that row is in. Rows
+/// wait for that where `waits_for_rest`: the rows of one time come before the block that ends there.
+class RateWatch final : public RowTaker, public TrackListener {
+ public:
+  using Sink = std::function<io::FileExpected<void>(const RateEvent&)>;
+
+  /// `array` outlives it. Errors: the monitor refuses the setup.
+  static io::FileExpected<std::unique_ptr<RateWatch>> make(const io::ArrayFile& array, bool waits_for_rest,
+                                                           const io::GyroCalibration* calibration = nullptr);
+
+  void tell(Sink sink) { sinks_.push_back(std::move(sink)); }
+  io::FileExpected<void> take(const stepping::Rows& rows) override;
+  io::FileExpected<void> rested(const TrackPoint& block) override;
+  io::FileExpected<void> moved(double until_s) override;
+  /// Rows that still wait are taken as in motion.
+  io::FileExpected<RateRun> end(LogEnd end);
+
+ private:
+  RateWatch(const io::ArrayFile& array, RateGroup group, bool waits_for_rest);
+  /// Those up to this time that wait, from `rest_from_s` on at rest.
+  io::FileExpected<void> step_until(double until_s, double rest_from_s);
+  io::FileExpected<void> step(const RateSample& sample);
+  void count(const RateVerdict& now);
+
+  const io::ArrayFile& array_;
+  RateGroup group_;
+  RateMonitor monitor_;
+  bool waits_;
+  std::deque<RateSample> waiting_;
+  std::vector<Sink> sinks_;
+  Readings heard_s_{};
+  RateRun run_;
+};
 
 /// One line of JSON, without a newline.
 std::string rate_event_json(const RateEvent& event, const SensorArray& array);

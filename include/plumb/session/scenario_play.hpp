@@ -8,6 +8,7 @@
 
 #include "plumb/io/log_writer.hpp"
 #include "plumb/io/scenario_file.hpp"
+#include "plumb/session/station_mean.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -19,7 +20,8 @@ class TruthFile;
 /// have log and truth.
 class ScenarioPlay {
  public:
-  ScenarioPlay(const io::ScenarioFile& file, scenario::Simulator simulator);
+  /// Errors of `Simulator::make`, as texts.
+  static tl::expected<std::unique_ptr<ScenarioPlay>, std::string> make(const io::ScenarioFile& file);
   ~ScenarioPlay();
   ScenarioPlay(const ScenarioPlay&) = delete;
   ScenarioPlay& operator=(const ScenarioPlay&) = delete;
@@ -29,19 +31,33 @@ class ScenarioPlay {
 
   std::uint64_t rows() const noexcept { return rows_; }
   double last_time_s() const noexcept { return last_time_s_; }
-  std::size_t stations() const noexcept { return simulator_.directions().size(); }
-  /// Faults that lie outside the run.
-  std::vector<std::size_t> without_effect() const;
+  std::size_t stations() const noexcept { return simulators_.front().directions().size(); }
+
+  /// A fault of the tool or of one of its groups.
+  struct PlayedFault {
+    const io::ArrayFile* array = nullptr;  ///< whose sensors it names
+    scenario::Fault fault;
+    std::size_t table = 0;  ///< [[fault]], counted from 1
+    bool shown = false;     ///< it was in effect
+  };
+  /// In the order of the file; what strikes every column is told of the accelerometers.
+  const std::vector<PlayedFault>& faults() const noexcept { return faults_; }
 
  private:
+  ScenarioPlay(const io::ScenarioFile& file, std::vector<scenario::Simulator> simulators);
   io::FileExpected<void> play(io::LogWriter& log);
-  io::FileExpected<void> put(io::LogWriter& log, const Sample& sample, const scenario::Truth& truth);
+  bool next();
+  io::FileExpected<void> put_mean(io::LogWriter& log);
+  io::FileExpected<void> put(io::LogWriter& log, const std::vector<Sample>& samples,
+                             const std::vector<scenario::Truth>& truth);
   void note_faults(const scenario::Moment& now);
 
   const io::ScenarioFile& file_;
-  scenario::Simulator simulator_;
+  std::vector<scenario::Simulator> simulators_;  ///< of the array itself, then of its groups
+  std::vector<Sample> samples_;                  ///< of one row
+  std::vector<StationMean> means_;
   std::unique_ptr<TruthFile> truth_;
-  std::vector<bool> shown_;  ///< by fault: whether it was in effect
+  std::vector<PlayedFault> faults_;
   std::uint64_t rows_ = 0;
   double last_time_s_ = 0.0;
 };
