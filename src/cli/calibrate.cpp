@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "calibrate_aligned.hpp"
+#include "calibrate_gyros.hpp"
 #include "calibrate_known.hpp"
 #include "calibrate_motion.hpp"
 #include "fit_pictures.hpp"
@@ -31,6 +32,7 @@ struct CalibrateOptions {
   std::string calibration;  ///< to which `motion` adds
   std::string motion;       ///< empty: a calibration at rest
   KnownCoefficientOptions known;
+  GyroOptions gyros;
   std::string out;
   session::CalibrationChoice choice;
   std::string plots;
@@ -62,6 +64,8 @@ constexpr const char* kCalibrateNotes =
     "stays\n"
     "as it was calibrated (docs/motion.md, Commissioning):\n"
     "  plumb calibrate --array tool.toml --calibration calibration.json --motion flight.csv --out in-motion.json\n\n"
+    "Gyros of a [[group]] are calibrated in motion too, after some seconds at rest (docs/motion.md, Redundant gyros):\n"
+    "  plumb calibrate --array tool.toml#gyros --motion turning.csv --out gyros.json\n\n"
     "Known coefficients need no log (docs/calibration.md, Known coefficients). Their uncertainty has to be stated, "
     "and\n"
     "nothing has tested them: a monitor trusts them after its own validation.\n"
@@ -144,10 +148,18 @@ io::FileError wrong_use(const char* option, const std::string& what, const std::
   return io::FileError{option, 0, "", what, remedy, io::ExitCode::usage};
 }
 
+/// The gyros of a group are calibrated in motion alone.
+bool of_a_group(const CalibrateOptions& options) {
+  return !options.motion.empty() && array_file_of(options.array) != options.array;
+}
+
 /// A calibration is made at rest, in motion or of known coefficients: which options belong together.
 std::optional<io::FileError> misuse(const CalibrateOptions& options) {
   if (std::optional<io::FileError> wrong = misuse_of(options.known, options.calibration)) return wrong;
   const char* const of_a_fit = option_of_a_fit(options);
+  if (options.gyros.given() != nullptr && !of_a_group(options))
+    return wrong_use(options.gyros.given(), "belongs to a calibration of gyros",
+                     "name their group, and a log in motion: --array TOOL.toml#GROUP --motion LOG.csv");
   if (options.known.given()) {
     const char* const mode = options.known.from.empty() ? "--export" : "--from";
     if (of_a_fit != nullptr)
@@ -169,11 +181,12 @@ std::optional<io::FileError> misuse(const CalibrateOptions& options) {
       return wrong_use("--calibration", "belongs to --motion; a calibration at rest begins anew", "leave it out");
     return std::nullopt;
   }
+  if (of_a_fit != nullptr)
+    return wrong_use(of_a_fit, "belongs to a calibration at rest, not to --motion", "leave it out");
+  if (of_a_group(options)) return std::nullopt;
   if (options.calibration.empty())
     return wrong_use("--motion", "adds to a calibration made at rest, and none is given",
                      "calibrate with --log first, then give --calibration CAL.json");
-  if (of_a_fit != nullptr)
-    return wrong_use(of_a_fit, "belongs to a calibration at rest, not to --motion", "leave it out");
   if (!options.tag.serial.empty())
     return wrong_use("--serial", "belongs to a calibration at rest, not to --motion", "leave it out");
   return std::nullopt;
@@ -191,13 +204,13 @@ io::ExitCode run_known(const CalibrateOptions& options) {
 io::ExitCode run_calibrate(const CalibrateOptions& options) {
   if (const std::optional<io::FileError> wrong = misuse(options)) return report(*wrong);
   if (options.known.given()) return run_known(options);
+  const session::LogSpec motion{options.motion, options.log.on_bad_row};
+  if (of_a_group(options))
+    return run_calibrate_gyros(options.gyros, {options.array, options.calibration, motion, options.out,
+                                               options.tag.date, options.tag.serial, options.json});
   if (!options.motion.empty())
-    return run_calibrate_motion({options.array,
-                                 options.calibration,
-                                 {options.motion, options.log.on_bad_row},
-                                 options.out,
-                                 options.tag.date,
-                                 options.json});
+    return run_calibrate_motion(
+        {options.array, options.calibration, motion, options.out, options.tag.date, options.json});
   const std::vector<NamedFile> to_write = {{"--out", options.out}};
   const std::vector<NamedFile> to_read = {
       {"--array", array_file_of(options.array)}, {"--log", options.log.path}, {"--align-by", options.align_by}};
@@ -280,6 +293,7 @@ Command add_calibrate(const Options& tool) {
                   "with --motion: the calibration at rest that it adds to; with --export: the one to write")
       .type_name("CAL.json");
   add_known_coefficient_options(command, options->known);
+  add_gyro_options(command, options->gyros);
   command.add_option("--out", options->out, "the calibration file to write; with --export that of the others")
       .required()
       .type_name("CAL.json");

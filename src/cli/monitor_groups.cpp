@@ -9,6 +9,7 @@
 
 #include "monitor_watch.hpp"
 #include "plumb/io/calibration_file.hpp"
+#include "plumb/io/gyro_calibration.hpp"
 #include "plumb/render/group_report.hpp"
 #include "plumb/render/timeline.hpp"
 #include "plumb/session/group_dip.hpp"
@@ -23,6 +24,7 @@ namespace {
 struct Wanted {
   std::string name, calibration;
   const io::ArrayFile* array = nullptr;
+  std::optional<io::GyroCalibration> gyros{};  ///< of a rate that is calibrated
 };
 
 io::FileError wrong_group(std::string what, std::string remedy) {
@@ -35,7 +37,7 @@ std::string names_of(const io::ArrayFile& tool) {
   return out;
 }
 
-/// "mag=mag.json": a calibration where the group's field has a length, none where it is a rate.
+/// "mag=mag.json": a calibration, which a rate need not have.
 io::FileExpected<std::vector<Wanted>> groups_of(const MonitorOptions& options, const io::ArrayFile& tool) {
   std::vector<Wanted> out;
   for (const std::string& text : options.groups) {
@@ -47,16 +49,19 @@ io::FileExpected<std::vector<Wanted>> groups_of(const MonitorOptions& options, c
           options.array + " has no group \"" + one.name + "\"",
           tool.groups.empty() ? "add a [[group]] to the array file" : "name one of its groups: " + names_of(tool)));
     const bool rate = one.array->field == io::FieldKind::rate;
-    if (rate != one.calibration.empty())
+    if (!rate && one.calibration.empty())
       return tl::unexpected<io::FileError>(
-          rate ? wrong_group("\"" + one.name + "\" measures a rate, which no calibration file serves",
-                             "write --group " + one.name)
-               : wrong_group("\"" + one.name + "\" has no calibration",
-                             "write --group " + one.name + "=CAL.json, with what plumb calibrate --array " +
-                                 options.array + "#" + one.name + " wrote"));
+          wrong_group("\"" + one.name + "\" has no calibration", "write --group " + one.name +
+                                                                     "=CAL.json, with what plumb calibrate --array " +
+                                                                     options.array + "#" + one.name + " wrote"));
     for (const Wanted& before : out) {
       if (before.name == one.name)
         return tl::unexpected<io::FileError>(wrong_group("\"" + one.name + "\" is given twice", "give it once"));
+    }
+    if (rate && !one.calibration.empty()) {
+      io::FileExpected<io::GyroCalibration> gyros = io::read_gyro_calibration(one.calibration, *one.array);
+      if (!gyros) return tl::unexpected<io::FileError>(gyros.error());
+      one.gyros = *std::move(gyros);
     }
     if (!rate) {
       const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(one.calibration, *one.array);
@@ -212,7 +217,8 @@ std::optional<io::ExitCode> ToolWatch::begin() {
 }
 
 io::FileExpected<void> ToolWatch::open_rate(Group& group) {
-  io::FileExpected<std::unique_ptr<session::RateWatch>> made = session::RateWatch::make(group.array(), true);
+  io::FileExpected<std::unique_ptr<session::RateWatch>> made =
+      session::RateWatch::make(group.array(), true, group.wanted.gyros ? &*group.wanted.gyros : nullptr);
   if (!made) return tl::unexpected<io::FileError>(made.error());
   group.rate = *std::move(made);
   track_.tell(*group.rate);

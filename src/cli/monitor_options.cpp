@@ -115,10 +115,10 @@ void add_monitor_options(const Options& command, MonitorOptions& options) {
       .add_option("--host", options.host, "a request of the host to the monitor, as below; may be given several times")
       .type_name("REQUEST");
   command
-      .add_option(
-          "--group", options.groups,
-          "watch this [[group]] of the array file as well, by its own calibration; of gyros without one; may be "
-          "given several times")
+      .add_option("--group", options.groups,
+                  "watch this [[group]] of the array file as well, by its own calibration; gyros without one by their "
+                  "datasheet; may be "
+                  "given several times")
       .type_name("NAME[=CAL.json]");
   add_bad_row_option(command, options.log.on_bad_row);
   command

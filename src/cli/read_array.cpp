@@ -30,13 +30,16 @@ io::FileExpected<io::ArrayFile> read_array(const std::string& path, const char* 
   const bool served = serves == Serves::all || field == io::FieldKind::gravity ||
                       (serves == Serves::lengths && field == io::FieldKind::magnetic);
   if (served) return array;
-  const bool rate = field == io::FieldKind::rate;
+  const bool rate = field == io::FieldKind::rate, calibrates = std::string(command) == "plumb calibrate";
   return tl::unexpected<io::FileError>(
-      io::FileError{path, 0, "", fmt::format("{} does not serve a group of {}s", command, io::units_of(field).sensor),
+      io::FileError{path, 0, "",
+                    fmt::format("{} does not serve a group of {}s{}", command, io::units_of(field).sensor,
+                                rate && calibrates ? " by --log" : ""),
                     !rate || serves == Serves::gravity
                         ? "name the array file alone, without #" + array->group + ", for its accelerometers"
-                        : "a rate has no length to calibrate by: plumb monitor --array " + array_file_of(path) +
-                              " --group " + array->group + " watches gyros beside the accelerometers",
+                    : calibrates ? "a rate has no length to calibrate by: give a log in motion, --motion LOG.csv"
+                                 : "plumb monitor --array " + array_file_of(path) + " --group " + array->group +
+                                       " watches gyros beside the accelerometers",
                     io::ExitCode::usage});
 }
 

@@ -219,8 +219,8 @@ CommissionExpected<bool> shaped(const GyroLog& log, const std::vector<GyroNomina
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     const Eigen::Vector3d axis = eigen_of_gyro(nominal[i].axis);
     if (!(std::fabs(axis.norm() - 1.0) < 1e-3) || !(nominal[i].noise_radps > 0.0))
-      return gyro_refusal("gyro axis %d: the nominal axis must have length 1 and its noise be above 0",
-                          static_cast<int>(i));
+      return gyro_refusal("gyro axis %s: the nominal axis must have length 1 and its noise be above 0",
+                          gyro_name(nominal, i).c_str());
     spread += axis * axis.transpose();
   }
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues()[0] < 0.01)
@@ -241,9 +241,9 @@ tl::unexpected<std::string> too_few(const GyroLog& log, const std::vector<GyroNo
   }
   if (most == 0) return gyro_refusal("%d samples: at least %d are needed; record for longer", samples, least);
   return gyro_refusal(
-      "%d samples at which all axes are given, at least %d are needed: axis %d is saturated or not given at %d "
+      "%d samples at which all axes are given, at least %d are needed: axis %s is saturated or not given at %d "
       "of %d; turn more slowly or leave the axis out",
-      samples, least, static_cast<int>(worst), most, static_cast<int>(log.samples()));
+      samples, least, gyro_name(nominal, worst).c_str(), most, static_cast<int>(log.samples()));
 }
 
 /// The body must have turned about every axis by more than the noise of the rate, and than rows off nominal pretend.
@@ -264,15 +264,15 @@ CommissionExpected<bool> moved(const Sums& sums, const Layout& layout, double va
 }
 
 /// The row's covariance told well enough in every direction.
-CommissionExpected<bool> row_told(std::size_t axis, const Eigen::Matrix3d& covariance, double limit) {
+CommissionExpected<bool> row_told(const std::string& axis, const Eigen::Matrix3d& covariance, double limit) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
   const double sigma = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
   if (sigma <= limit) return true;
   const Eigen::Vector3d along = eigen.eigenvectors().col(2);
   return gyro_refusal(
-      "the body turned too little about (%.2f, %.2f, %.2f): there the row of gyro axis %d is told to %.2g, %.2g is "
+      "the body turned too little about (%.2f, %.2f, %.2f): there the row of gyro axis %s is told to %.2g, %.2g is "
       "needed; turn it about that axis too, faster or for longer",
-      along[0], along[1], along[2], static_cast<int>(axis), sigma, limit);
+      along[0], along[1], along[2], axis.c_str(), sigma, limit);
 }
 
 /// Standard deviations from the fit's covariance into the axes; refused where one is too large.
@@ -284,12 +284,13 @@ CommissionExpected<bool> told(const Matrix& covariance, Index open, const Layout
         "rates; an axis that no other axes check has no delay",
         static_cast<int>(open - layout.common()));
   const Index p = layout.size();
-  const auto check = [](std::size_t axis, const char* what, double sigma, double limit) -> CommissionExpected<bool> {
+  const auto check = [](const std::string& axis, const char* what, double sigma,
+                        double limit) -> CommissionExpected<bool> {
     if (sigma <= limit) return true;
     return gyro_refusal(
-        "the motion tells %s of gyro axis %d to %.3g only, %.3g is needed: turn about more axes, with changing "
+        "the motion tells %s of gyro axis %s to %.3g only, %.3g is needed: turn about more axes, with changing "
         "rates, or for longer",
-        what, static_cast<int>(axis), sigma, limit);
+        what, axis.c_str(), sigma, limit);
   };
   for (std::size_t i = 0; i < fit->axis.size(); ++i) {
     const Matrix own = covariance.block(p * static_cast<Index>(i), p * static_cast<Index>(i), p, p);
@@ -307,11 +308,12 @@ CommissionExpected<bool> told(const Matrix& covariance, Index open, const Layout
     Vector bias = Vector::Unit(p, Layout::bias_at);
     if (layout.force) bias.segment<3>(layout.force_at()) = -rest_force;
     one.bias_sigma_radps = std::sqrt(bias.dot(own * bias));
-    const auto row = row_told(i, own.topLeftCorner<3, 3>(), settings.row_sigma);
+    const std::string name = gyro_name(fit->nominal, i);
+    const auto row = row_told(name, own.topLeftCorner<3, 3>(), settings.row_sigma);
     if (!row) return row;
-    for (const auto& result : {check(i, "the delay [s]", one.delay_sigma_s, settings.delay_sigma_s),
-                               check(i, "the g-sensitivity [rad/s per m/s2]", force, settings.force_sigma),
-                               check(i, "the bias [rad/s]", one.bias_sigma_radps, settings.bias_sigma_radps)}) {
+    for (const auto& result : {check(name, "the delay [s]", one.delay_sigma_s, settings.delay_sigma_s),
+                               check(name, "the g-sensitivity [rad/s per m/s2]", force, settings.force_sigma),
+                               check(name, "the bias [rad/s]", one.bias_sigma_radps, settings.bias_sigma_radps)}) {
       if (!result) return result;
     }
   }
@@ -379,9 +381,10 @@ CommissionExpected<GyroFit> fit_gyros(const GyroLog& log, const std::vector<Gyro
     if (!seen) return tl::unexpected<std::string>(seen.error());
     if (late >= 0)
       return gyro_refusal(
-          "gyro axis %d is delayed by %.3g s or more against the others, %.3g s is the limit: bring it to "
+          "gyro axis %s is delayed by %.3g s or more against the others, %.3g s is the limit: bring it to "
           "their clock first",
-          late, out.axis[static_cast<std::size_t>(late)].delay_s, settings.delay_limit_s);
+          gyro_name(nominal, static_cast<std::size_t>(late)).c_str(), out.axis[static_cast<std::size_t>(late)].delay_s,
+          settings.delay_limit_s);
     if (!settled) break;
     out.residual = gyro_residual(log, out);
     return out;

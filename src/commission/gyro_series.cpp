@@ -34,6 +34,10 @@ double shifted(const GyroLog& log, const std::vector<GyroNominal>& nominal, std:
 
 }  // namespace
 
+std::string gyro_name(const std::vector<GyroNominal>& nominal, std::size_t axis) {
+  return nominal[axis].id.empty() ? std::to_string(axis) : nominal[axis].id;
+}
+
 Eigen::Vector3d eigen_of_gyro(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 bool gyro_shape_fits(const GyroLog& log, std::size_t axes) {

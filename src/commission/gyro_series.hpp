@@ -28,6 +28,8 @@ struct GyroRest {
   Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();
 };
 
+/// As refusals name it.
+std::string gyro_name(const std::vector<GyroNominal>& nominal, std::size_t axis);
 Eigen::Vector3d eigen_of_gyro(const Vec3& v);
 bool gyro_shape_fits(const GyroLog& log, std::size_t axes);
 bool gyro_given(const GyroLog& log, const std::vector<GyroNominal>& nominal, std::size_t axis, std::size_t sample);

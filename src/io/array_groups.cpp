@@ -1,6 +1,8 @@
 // [[group]]: sensors of another field on the same tool and in the same log.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "array_parts.hpp"
 #include "motion_figure.hpp"
@@ -130,13 +132,14 @@ MagneticReference read_reference(const GroupNode& group, const TomlNode& node, c
   return out;
 }
 
-RateSetup read_rate(const GroupNode& group, const InputSpec& input) {
+/// The setup, and what the bias of any gyro may change by after its calibration.
+std::pair<RateSetup, Stability> read_rate(const GroupNode& group, const InputSpec& input) {
   static const TomlNode nothing = [] {
     TomlNode node;
     node.kind = TomlNode::Kind::table;
     return node;
   }();
-  std::vector<std::string> known = with_rate_keys({kPeriod.key, "max_faults"});
+  std::vector<std::string> known = with_rate_keys({kPeriod.key, "max_faults", "stability"});
   for (const RateLimit& limit : kLimits) known.emplace_back(limit.figure.key);
   const TomlNode* node = group.node.find("rate");
   const TomlTable table(node == nullptr ? nothing : *node, group.file, group.prefix + "rate", known, FieldKind::rate);
@@ -156,7 +159,7 @@ RateSetup read_rate(const GroupNode& group, const InputSpec& input) {
   RateErrors usual;
   read_rate_bounds(table, usual);
   out.errors.fill(usual);
-  return out;
+  return {out, read_stability(table, {})};
 }
 
 void read_magnetic(const GroupNode& group, const FieldLookup& lookup, ArrayFile& out) {
@@ -215,8 +218,10 @@ ArrayFile group_of(const TomlNode& node, const std::string& prefix, const ArrayF
   out.datasheet.reads = Reads::gravity;  // a sensor that points along the vector reads more
   const GroupNode group{node, tool.path, field, prefix};
   if (field == FieldKind::magnetic) read_magnetic(group, lookup, out);
-  if (field == FieldKind::rate) out.rate = read_rate(group, out.input);
+  Stability since_calibration;
+  if (field == FieldKind::rate) std::tie(out.rate, since_calibration) = read_rate(group, out.input);
   read_sensors(group, out);
+  if (field == FieldKind::rate) out.stability.fill(since_calibration);
   out.fingerprint = fingerprint_of(out.datasheet, field);
   return out;
 }

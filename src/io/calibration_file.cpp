@@ -21,22 +21,6 @@ Json from_coefficients(const SensorCoefficients& c) {
                  {"reference_degc", from_double(c.reference_degc)}});
 }
 
-Json from_nominal(const ArrayFile& array) {
-  Json sensors = Json::array();
-  for (int i = 0; i < array.datasheet.size; ++i) {
-    const DatasheetSensor& sensor = array.datasheet.sensor[static_cast<std::size_t>(i)];
-    Json one = object({{"id", sensor.row.id.data()}, {"axis", from_array(sensor.row.axis, 3)}});
-    one.update(from_coefficients(sensor.coefficients));
-    sensors.push_back(std::move(one));
-  }
-  return object({{"name", array.name},
-                 {"file", last_part(array.path)},
-                 {"fingerprint", hex(array.fingerprint)},
-                 {"reads", reads_word(array.datasheet.reads)},
-                 {"raw_unit", array.input.unit.name},
-                 {"nominal", std::move(sensors)}});
-}
-
 Json from_sensors(const Calibration& calibration) {
   Json sensors = Json::array();
   for (int i = 0; i < calibration.array.size(); ++i) {
@@ -150,6 +134,22 @@ void print(const Json& value, int indent, std::string& out) {  // NOLINT(misc-no
 }
 
 }  // namespace
+
+Json from_nominal(const ArrayFile& array) {
+  Json sensors = Json::array();
+  for (int i = 0; i < array.datasheet.size; ++i) {
+    const DatasheetSensor& sensor = array.datasheet.sensor[static_cast<std::size_t>(i)];
+    Json one = object({{"id", sensor.row.id.data()}, {"axis", from_array(sensor.row.axis, 3)}});
+    one.update(from_coefficients(sensor.coefficients));
+    sensors.push_back(std::move(one));
+  }
+  return object({{"name", array.name},
+                 {"file", last_part(array.path)},
+                 {"fingerprint", hex(array.fingerprint)},
+                 {"reads", reads_word(array.datasheet.reads)},
+                 {"raw_unit", array.input.unit.name},
+                 {"nominal", std::move(sensors)}});
+}
 
 Json from_double(double value) { return std::isfinite(value) ? Json(value) : Json(shortest(value)); }
 

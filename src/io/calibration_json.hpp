@@ -7,6 +7,7 @@
 
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/core/config.hpp"
+#include "plumb/io/array_file.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/paper/paper_calibration.hpp"
 
@@ -32,6 +33,9 @@ Json from_array(const Array& values, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) out.push_back(from_double(values[k]));
   return out;
 }
+
+/// The section `array`: which array it is of, with all that a calibration depends on.
+Json from_nominal(const ArrayFile& array);
 
 /// Objects one member a line, lists of plain values on one line.
 std::string printed(const Json& value);

@@ -91,6 +91,20 @@ Enum enum_from(const Source& source, const Json& object, const std::string& key,
   source.fail(0, key, in_quotes(word) + " is not known", kMakeAnew);
 }
 
+/// Whose file it is.
+struct Schema {
+  const char* name;
+  int oldest, newest;  ///< versions that are read
+  const char* remedy;  ///< what to give where it is another file
+};
+
+/// The text as JSON; refuses what is empty, truncated, no JSON or nested too deeply.
+Json parsed(const Source& source);
+/// Refuses another schema or version, and what the checksum does not fit.
+void check_envelope(const Source& source, const Json& root, const Schema& schema);
+/// Refuses the calibration of another array: names the id, axis, scale or bias that differs.
+void check_array(const Source& source, const Json& root, const ArrayFile& array);
+
 /// Refuses a fit by the paper's method that says of readings what plumb's own fit of the same file contradicts.
 void check_paper(const Source& source, const PaperCalibration& paper, const Calibration& calibration,
                  const ArrayFile& array);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "plumb/core/units.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/words.hpp"
@@ -73,6 +75,13 @@ std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& grou
   std::string out =
       fmt::format("log         {}, {} of them at rest, {}, {} skipped\n", count_text(run.samples, "sample"),
                   run.samples_at_rest, count_text(run.blocks, "block"), count_text(run.log.rows_bad, "bad row"));
+  if (run.calibrated)
+    out += run.common > 0.0 ? fmt::format("calibrated  against each other{}\n",
+                                          std::isfinite(run.common)
+                                              ? fmt::format("; the bound has {:.2g} % of the rate for what they share",
+                                                            100.0 * run.common)
+                                              : ", and nothing bounds what they share: no rate has a bound")
+                            : std::string("calibrated  scales, axes and biases\n");
   out += fmt::format("in service  {}\n", sensor_names(array.all() - out_of_service, array));
   out += fmt::format("excluded    {}\n", sensor_names(run.last.excluded, array));
   if (!run.silent.empty())
@@ -103,6 +112,8 @@ std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& grou
   const SensorArray& array = group.array;
   return io::object({{"group", group.group},
                      {"field", to_string(group.field)},
+                     {"calibrated", run.calibrated},
+                     {"common_part", io::finite_or_null(run.common)},
                      {"summary", io::object({{"samples", run.samples},
                                              {"samples_at_rest", run.samples_at_rest},
                                              {"blocks", run.blocks},

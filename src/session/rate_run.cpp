@@ -41,12 +41,18 @@ RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, con
   return out;
 }
 
-RateWatch::RateWatch(const io::ArrayFile& array, bool waits_for_rest)
-    : array_(array), model_(array.datasheet.model()), waits_(waits_for_rest) {}
+RateWatch::RateWatch(const io::ArrayFile& array, RateGroup group, bool waits_for_rest)
+    : array_(array), group_(std::move(group)), waits_(waits_for_rest) {
+  run_.calibrated = group_.calibrated;
+  run_.common = group_.common;
+}
 
-io::FileExpected<std::unique_ptr<RateWatch>> RateWatch::make(const io::ArrayFile& array, bool waits_for_rest) {
-  std::unique_ptr<RateWatch> out(new RateWatch(array, waits_for_rest));
-  const Expected<void> made = out->monitor_.configure(array.array, array.rate);
+io::FileExpected<std::unique_ptr<RateWatch>> RateWatch::make(const io::ArrayFile& array, bool waits_for_rest,
+                                                             const io::GyroCalibration* calibration) {
+  io::FileExpected<RateGroup> group = rate_group(array, calibration);
+  if (!group) return tl::unexpected<io::FileError>(group.error());
+  std::unique_ptr<RateWatch> out(new RateWatch(array, *std::move(group), waits_for_rest));
+  const Expected<void> made = out->monitor_.configure(out->group_.array, out->group_.setup);
   if (made) return out;
   io::FileError error = io::from_error(made.error());
   error.file = array.path;
@@ -59,7 +65,7 @@ io::FileExpected<void> RateWatch::take(const stepping::Rows& rows) {
   io::FileExpected<void> done;
   for (std::size_t k = 0; k < rows.row.size() && done; ++k) {
     stepping_detail::take_row(rows, k, sample);
-    waiting_.push_back(rate_sample(array_, model_, sample));
+    waiting_.push_back(rate_sample(array_, group_.model, sample));
     if (!waits_ || waiting_.size() > kMostWaiting) done = step_until(waiting_.front().time_s, kNever_s);
   }
   return done;
@@ -107,10 +113,11 @@ void RateWatch::count(const RateVerdict& now) {
   run_.ever_off_at_rest = run_.ever_off_at_rest | now.off_at_rest;
   if (now.block_ended) {
     ++run_.blocks;
-    if (now.block.validity != ForceValidity::none && std::isfinite(now.block.bound_radps)) {
+    const double bound_radps = with_common_part(group_, norm(now.block.rate_radps), now.block.bound_radps);
+    if (now.block.validity != ForceValidity::none && std::isfinite(bound_radps)) {
       ++run_.bounded_blocks;
-      run_.bound_sum_radps += now.block.bound_radps;
-      run_.worst_bound_radps = std::fmax(run_.worst_bound_radps, now.block.bound_radps);
+      run_.bound_sum_radps += bound_radps;
+      run_.worst_bound_radps = std::fmax(run_.worst_bound_radps, bound_radps);
     }
   }
   run_.last = now;

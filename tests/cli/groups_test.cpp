@@ -398,7 +398,7 @@ TEST(GroupsCommand, WhatIsAskedForWronglyIsSaid) {
   const Wrong cases[] = {
       {{"--group", "magg=mag.json"}, "no group \"magg\""},
       {{"--group", "mag"}, "has no calibration"},
-      {{"--group", "gyros=mag.json"}, "write --group gyros"},
+      {{"--group", "gyros=mag.json"}, "must be \"plumb-gyro-calibration\""},
       {{"--group", "gyros", "--group", "gyros"}, "given twice"},
       {{"--group", "mag=acc.json"}, "belongs to another array"},
       {{"--group", "gyros", "--limits"}, "--limits"},

@@ -21,6 +21,7 @@ struct GyroNominal {
   Vec3 axis{};                    ///< unit vector in the frame of the array, scale 1
   double noise_radps = 1e-3;      ///< weight of the axis against the others: only ratios count
   double full_scale_radps = 0.0;  ///< a reading that reaches it is saturated; 0: unknown
+  std::string id{};               ///< by which refusals name it; empty: they give its number, from 0
 };
 
 /// Samples of all axes by their number, at a regular period. A reading that is not finite counts as not given: a row

@@ -13,6 +13,7 @@
 #include "plumb/motion/rate_monitor.hpp"
 #include "plumb/session/group_track.hpp"
 #include "plumb/session/log_run.hpp"
+#include "plumb/session/rate_group.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -39,12 +40,15 @@ struct RateRun : LogEnd {
   double worst_bound_radps = 0.0;  ///< of the means of two blocks, where they were valid
   double bound_sum_radps = 0.0;
   std::uint64_t bounded_blocks = 0;
+  bool calibrated = false;
+  double common = 0.0;  ///< `RateGroup::common`: in the bounds
 };
 
-/// A row of a log as `RateMonitor` takes it, force and rest not known. `model`: that of the datasheet in `array`.
+/// A row of a log as `RateMonitor` takes it, force and rest not known. `model`: that of the datasheet in `array`, or
+/// of its calibration.
 RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, const Sample& sample);
 
-/// Readings are those of the datasheet in the array file: bias and scale as stated there.
+/// Readings, axes and bounds are those of the calibration; without one of the datasheet in the array file.
 ///
 /// Whether the tool stood still at a row is known once the block of the accelerometers ends which that row is in. Rows
 /// wait for that where `waits_for_rest`: the rows of one time come before the block that ends there.
@@ -53,7 +57,8 @@ class RateWatch final : public RowTaker, public TrackListener {
   using Sink = std::function<io::FileExpected<void>(const RateEvent&)>;
 
   /// `array` outlives it. Errors: the monitor refuses the setup.
-  static io::FileExpected<std::unique_ptr<RateWatch>> make(const io::ArrayFile& array, bool waits_for_rest);
+  static io::FileExpected<std::unique_ptr<RateWatch>> make(const io::ArrayFile& array, bool waits_for_rest,
+                                                           const io::GyroCalibration* calibration = nullptr);
 
   void tell(Sink sink) { sinks_.push_back(std::move(sink)); }
   io::FileExpected<void> take(const stepping::Rows& rows) override;
@@ -63,14 +68,14 @@ class RateWatch final : public RowTaker, public TrackListener {
   io::FileExpected<RateRun> end(LogEnd end);
 
  private:
-  RateWatch(const io::ArrayFile& array, bool waits_for_rest);
+  RateWatch(const io::ArrayFile& array, RateGroup group, bool waits_for_rest);
   /// Those up to this time that wait, from `rest_from_s` on at rest.
   io::FileExpected<void> step_until(double until_s, double rest_from_s);
   io::FileExpected<void> step(const RateSample& sample);
   void count(const RateVerdict& now);
 
   const io::ArrayFile& array_;
-  SensorModel model_;
+  RateGroup group_;
   RateMonitor monitor_;
   bool waits_;
   std::deque<RateSample> waiting_;
