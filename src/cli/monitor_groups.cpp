@@ -86,10 +86,13 @@ std::optional<io::FileError> clash_of(const MonitorOptions& options, const std::
     }
   };
   add("");
-  for (const Wanted& group : groups) add(group.name);
-  return overwritten(
-      files,
-      {{"--array", array_file_of(options.array)}, {"--calibration", options.calibration}, {"--log", options.log.path}});
+  std::vector<NamedFile> read = {
+      {"--array", array_file_of(options.array)}, {"--calibration", options.calibration}, {"--log", options.log.path}};
+  for (const Wanted& group : groups) {
+    add(group.name);
+    read.push_back({"--group", group.calibration});
+  }
+  return overwritten(files, read);
 }
 
 std::optional<io::FileError> misuse(const MonitorOptions& o) {

@@ -446,6 +446,15 @@ TEST(GroupsCommand, NoOutputTakesThePlaceOfTheArrayFile) {
   EXPECT_TRUE(has(read_text(desk() / "tool.toml"), "[[group]]"));
 }
 
+TEST(GroupsCommand, NoReportTakesThePlaceOfACalibration) {
+  const std::string before = read_text(desk() / "mag.json");
+  const Outcome outcome = run(desk(), {"monitor", "--array", "tool.toml", "--calibration", "acc.json", "--log",
+                                       "stand.csv", "--group", "mag=mag.json", "--report", "mag.html"});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_TRUE(has(outcome.err, "is the same file as --group")) << outcome.err;
+  EXPECT_EQ(read_text(desk() / "mag.json"), before);
+}
+
 TEST(GroupsCommand, ACommandThatDoesNotServeAGroupSaysSo) {
   const Outcome rate =
       run(desk(), {"calibrate", "--array", "tool.toml#gyros", "--log", "stand.csv", "--out", "x.json"});
