@@ -279,6 +279,7 @@ if(TARGET plumb_io AND session_sources)
   plumb_find_package(Threads DEBIAN libc6-dev TARGET Threads::Threads)
   add_library(plumb_session STATIC ${session_sources})
   plumb_library(plumb_session session)
+  plumb_with_eigen(plumb_session)
   target_compile_definitions(plumb_session PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")  # in what it writes
   target_link_libraries(plumb_session PUBLIC plumb_findings plumb_commission plumb_io plumb_scenario plumb_24 fmt::fmt Threads::Threads)
   set_source_files_properties("${PROJECT_SOURCE_DIR}/src/session/steppers.cpp"
