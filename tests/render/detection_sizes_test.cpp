@@ -25,7 +25,7 @@ bool says(const std::string& text, const std::string& words) { return text.find(
 TEST(SizesInWords, TextAndJsonHaveTheSameFigures) {
   const SensorArray array = cone_array(5);
   const SizeTable table = size_table(array, kExact, TestSettings{}, true, {{0.0, 0.0, 1.0}, {}});
-  const std::string text = render::sizes_text(table, 5);
+  const std::string text = render::sizes_text(table, 5, io::FieldKind::gravity);
   const render::Json json = render::sizes_json(table, 5);
   for (const char* const row : {"stability_0", "stability_0_2_mg0", "as_stated"}) {
     for (const auto& [key, value] : json.at(row).items()) {
@@ -50,10 +50,10 @@ TEST(SizesInWords, ASizeBeyondTheFullScaleIsNone) {
   const SensorArray array = cone_array(5);
   Readings full_scale{};
   const SizeTable plain = size_table(array, kExact, TestSettings{}, true, {}, full_scale);
-  EXPECT_FALSE(says(render::sizes_text(plain, 5), "full scale"));
+  EXPECT_FALSE(says(render::sizes_text(plain, 5, io::FieldKind::gravity), "full scale"));
   full_scale[3] = 5e-3 * kG0_mps2;
   const SizeTable table = size_table(array, kExact, TestSettings{}, true, {}, full_scale);
-  const std::string text = render::sizes_text(table, 5);
+  const std::string text = render::sizes_text(table, 5, io::FieldKind::gravity);
   EXPECT_TRUE(says(text, "none (beyond full scale)")) << text;
   const render::Json json = render::sizes_json(table, 5);
   EXPECT_TRUE(json["stability_0"]["minimum_detectable_bias_mps2"].is_number());
@@ -64,8 +64,9 @@ TEST(SizesInWords, ASizeBeyondTheFullScaleIsNone) {
     EXPECT_TRUE(json["stability_0_2_mg0"][key.get<std::string>()].is_null()) << key;
   full_scale.fill(0.0);
   full_scale[3] = 1.0;
-  EXPECT_FALSE(
-      says(render::sizes_text(size_table(array, kExact, TestSettings{}, true, {}, full_scale), 5), "full scale"));
+  EXPECT_FALSE(says(
+      render::sizes_text(size_table(array, kExact, TestSettings{}, true, {}, full_scale), 5, io::FieldKind::gravity),
+      "full scale"));
 }
 
 /// An exact tool, and a calibration file of an earlier plumb.
@@ -74,14 +75,14 @@ TEST(SizesInWords, SayWhyTheVisitedAttitudesHaveNoFigure) {
   const SensorArray array = cone_array(5);
   const SizeTable exact = size_table(array, kExact, TestSettings{}, false, {});
   const SizeTable old = size_table(array, kExact, TestSettings{}, true, {});
-  EXPECT_TRUE(says(render::sizes_text(exact, 5), "no figure without a calibration"));
-  EXPECT_TRUE(
-      says(render::sizes_text(old, 5), "does not keep the attitudes of its stations; run plumb calibrate again"));
+  EXPECT_TRUE(says(render::sizes_text(exact, 5, io::FieldKind::gravity), "no figure without a calibration"));
+  EXPECT_TRUE(says(render::sizes_text(old, 5, io::FieldKind::gravity),
+                   "does not keep the attitudes of its stations; run plumb calibrate again"));
   for (const SizeTable& table : {exact, old}) {
     const render::Json json = render::sizes_json(table, 5);
     EXPECT_TRUE(json["visited_attitudes"].is_null());
     EXPECT_TRUE(json["stability_0"]["guaranteed_detection_visited_mps2"].is_null());
-    EXPECT_TRUE(says(render::sizes_text(table, 5), json["visited_text"].get<std::string>()));
+    EXPECT_TRUE(says(render::sizes_text(table, 5, io::FieldKind::gravity), json["visited_text"].get<std::string>()));
   }
 }
 

@@ -39,6 +39,7 @@ render::SurveyReport report_of(const std::vector<ReferencedStation>& stations, c
           "mps2",
           "nT",
           0,
+          "",
           settings,
           stations.front().reference,
           stations.back().reference,
