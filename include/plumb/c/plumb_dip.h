@@ -67,8 +67,8 @@ typedef struct plumb_dip_answer {
 typedef struct plumb_dip_report {
   uint32_t struct_size;     /* set by plumb_dip_report_defaults */
   int32_t protected_by_dip; /* 1: the bounds below are made with the dip; 0: those of the verdict stand */
-  plumb_dip_answer answer;
-  double gravity_mps2[3];                      /* output frame; without a sensor that is named, the verdict's [m/s^2] */
+  plumb_dip_answer answer;  /* what the dip says of the sensors that are left */
+  double gravity_mps2[3];   /* output frame; without a sensor that is named, the verdict's [m/s^2] */
   double protection_level_calibrated_axes_rad; /* as in the verdict [rad] */
   double protection_level_housing_rad;         /* [rad] */
 } plumb_dip_report;
