@@ -78,7 +78,7 @@ plumb_error plumb_dip_field_defaults(plumb_dip_field* field) PLUMB_NOEXCEPT;
 /* No sensor, standard gravity. Error: null_pointer. */
 plumb_error plumb_dip_station_defaults(plumb_dip_station* station) PLUMB_NOEXCEPT;
 /* Nothing judged, no bound. Error: null_pointer. */
-plumb_error plumb_dip_answer_defaults(plumb_dip_answer* answer) PLUMB_NOEXCEPT;
+plumb_error plumb_dip_answer_defaults(plumb_dip_answer* found) PLUMB_NOEXCEPT;
 plumb_error plumb_dip_report_defaults(plumb_dip_report* report) PLUMB_NOEXCEPT;
 
 const char* plumb_dip_verdict_text(int32_t verdict) PLUMB_NOEXCEPT;
@@ -95,7 +95,7 @@ plumb_error plumb_dip_init(void* storage, size_t storage_size, const double* axi
                            plumb_dip** dip) PLUMB_NOEXCEPT;
 /* A station more: judged by itself after plumb_dip_forget. On an error the answer is that of the defaults. */
 plumb_error plumb_dip_add(plumb_dip* dip, const plumb_dip_station* station, const plumb_dip_field* field,
-                          plumb_dip_answer* answer) PLUMB_NOEXCEPT;
+                          plumb_dip_answer* found) PLUMB_NOEXCEPT;
 
 /* Evidence beside a monitor. */
 plumb_error plumb_dip_watch_init(void* storage, size_t storage_size, int32_t assumption,
