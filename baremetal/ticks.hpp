@@ -1,5 +1,5 @@
-/// A million samples of a tool with four sensors, a thousand a second, and what a monitor must have said of them: played by a
-/// timer interrupt on the target, by a loop on the host.
+/// A million samples of a tool with four sensors, a thousand a second, and what a monitor must have said of them:
+/// played by a timer interrupt on the target, by a loop on the host.
 #pragma once
 
 #include <cstdint>

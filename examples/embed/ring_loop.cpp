@@ -1,5 +1,6 @@
-// Samples arrive by an interrupt, the monitor runs in the loop: a ring between the two, so that a step that takes longer than the
-// time between two samples loses none. Here a thread plays the interrupt; on a Cortex-M it is the timer (docs/embedding.md).
+// Samples arrive by an interrupt, the monitor runs in the loop: a ring between the two, so that a step that takes
+// longer than the time between two samples loses none. Here a thread plays the interrupt; on a Cortex-M it is the timer
+// (docs/embedding.md).
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
