@@ -50,18 +50,17 @@ io::Json named_json(const DipAnswer& answer, const SensorArray& array) {
 
 }  // namespace
 
-double DipCheck::add(const TrackPoint& gravity, const TrackPoint& field, const io::MagneticReference& reference) {
+bool DipCheck::add(const TrackPoint& gravity, const TrackPoint& field, const io::MagneticReference& reference) {
   const double dip_rad = dip_of(gravity.vector, field.vector), allowed_rad = allowed_of(gravity, field, reference);
   const double excess_rad = std::fabs(dip_rad - reference.dip_rad) - allowed_rad;
   least_rad = checked == 0 ? dip_rad : std::fmin(least_rad, dip_rad);
   most_rad = checked == 0 ? dip_rad : std::fmax(most_rad, dip_rad);
   widest_allowed_rad = std::fmax(widest_allowed_rad, allowed_rad);
   ++checked;
-  if (excess_rad > 0.0) {
-    if (disagreeing++ == 0) first_s = field.end_s;
-    worst_excess_rad = std::fmax(worst_excess_rad, excess_rad);
-  }
-  return excess_rad;
+  if (excess_rad <= 0.0) return false;  // what is not a number does not agree
+  if (disagreeing++ == 0) first_s = field.end_s;
+  worst_excess_rad = std::fmax(worst_excess_rad, excess_rad);
+  return true;
 }
 
 GroupDip::GroupDip(const io::ArrayFile& tool, const io::ArrayFile& group) : tool_(tool), group_(group) {}
@@ -93,7 +92,7 @@ io::FileExpected<void> GroupDip::compare() {
   waiting_ = false;
   const TrackPoint &gravity = *last_gravity_, &field = *last_field_;
   if (!gravity.usable || !field.usable) return {};
-  const bool before = std::exchange(disagree_, check_.add(gravity, field, group_.magnetic) > 0.0);
+  const bool before = std::exchange(disagree_, check_.add(gravity, field, group_.magnetic));
   if (disagree_ == before) return {};
   DipEvent event;
   event.kind = disagree_ ? DipEventKind::disagree : DipEventKind::agree;

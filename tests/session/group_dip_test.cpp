@@ -119,6 +119,15 @@ TEST(GroupDip, OnlyBlocksThatMeetWithBothDirectionsUsableCount) {
   EXPECT_EQ(pair.dip.check().checked, 1);
 }
 
+// Verifies: REQ-242
+TEST(GroupDip, WhatIsNotANumberDisagrees) {
+  Pair pair(0.0);
+  pair.gravity(point(1.0, {0.0, 0.0, 1.0}, 0.01));
+  pair.field(point(1.0, {std::nan(""), 0.0, 0.0}, 0.01));
+  EXPECT_EQ(pair.dip.check().disagreeing, 1);
+  EXPECT_FALSE(pair.dip.doubt().empty());
+}
+
 TEST(GroupDip, EveryBlockOfTheFieldCountsOnce) {
   Pair pair(0.0);
   pair.field(point(1.0, {1.0, 0.0, 0.0}, 0.01));

@@ -29,8 +29,8 @@ struct DipCheck {
   double widest_allowed_rad = 0.0;
   double first_s = 0.0;  ///< of the first that disagrees
 
-  /// Takes the block in; its excess, above 0 where it disagrees.
-  double add(const TrackPoint& gravity, const TrackPoint& field, const io::MagneticReference& reference);
+  /// Takes the block in. True: it disagrees; so does a direction that is not a number.
+  bool add(const TrackPoint& gravity, const TrackPoint& field, const io::MagneticReference& reference);
 };
 
 /// Of a run: what the dip said of three accelerometers.
