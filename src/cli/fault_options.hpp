@@ -20,6 +20,13 @@ io::FileError fault_error(std::string what);
 io::FileExpected<std::vector<scenario::Fault>> faults_of(const std::vector<std::string>& texts,
                                                          const io::ArrayFile& array);
 
+/// Those of the array, and of each of its groups: a fault is of the group that has a sensor or a chip of its name.
+struct ToolFaults {
+  std::vector<scenario::Fault> own;
+  std::vector<std::vector<scenario::Fault>> group;  ///< in the order of the array file
+};
+io::FileExpected<ToolFaults> tool_faults_of(const std::vector<std::string>& texts, const io::ArrayFile& tool);
+
 }  // namespace cli
 }  // namespace PLUMB_ABI
 }  // namespace plumb

@@ -157,7 +157,7 @@ struct Group {
 /// All groups of one tool over one pass of its log.
 class ToolWatch {
  public:
-  ToolWatch(const MonitorOptions& options, const std::vector<Wanted>& groups);
+  ToolWatch(const MonitorOptions& options, const io::ArrayFile& tool, const std::vector<Wanted>& groups);
   /// How the command ends, where it ends before the run.
   std::optional<io::ExitCode> begin();
   io::FileExpected<void> run();
@@ -172,6 +172,7 @@ class ToolWatch {
   io::Json summary() const;
 
   const MonitorOptions& options_;
+  const std::string& rates_of_;  ///< the group that gives the accelerometers' rate in motion; empty: none
   std::size_t widest_;
   std::vector<std::unique_ptr<Group>> groups_;
   std::unique_ptr<ArrayWatch> gravity_;
@@ -180,8 +181,10 @@ class ToolWatch {
 
 std::string column(const std::string& name, std::size_t widest) { return fmt::format("{:<{}}", name, widest + 2); }
 
-ToolWatch::ToolWatch(const MonitorOptions& options, const std::vector<Wanted>& groups)
-    : options_(options), widest_(std::string(to_string(io::FieldKind::gravity)).size()) {
+ToolWatch::ToolWatch(const MonitorOptions& options, const io::ArrayFile& tool, const std::vector<Wanted>& groups)
+    : options_(options),
+      rates_of_(tool.motion.gyro.group),
+      widest_(std::string(to_string(io::FieldKind::gravity)).size()) {
   for (const Wanted& one : groups) {
     groups_.push_back(std::make_unique<Group>(one));
     widest_ = std::max(widest_, one.name.size());
@@ -191,16 +194,21 @@ ToolWatch::ToolWatch(const MonitorOptions& options, const std::vector<Wanted>& g
 std::optional<io::ExitCode> ToolWatch::begin() {
   MonitorOptions own = options_;
   own.label = column(to_string(io::FieldKind::gravity), widest_);
-  auto gravity = ArrayWatch::begin(own);
+  const session::RateWatch* rates = nullptr;
+  for (const std::unique_ptr<Group>& group : groups_) {
+    group->label = column(group->wanted.name, widest_);
+    if (group->array().field != io::FieldKind::rate) continue;
+    if (io::FileExpected<void> opened = open_rate(*group); !opened) return report(opened.error());
+    if (group->wanted.name == rates_of_) rates = group->rate.get();
+  }
+  auto gravity = ArrayWatch::begin(own, rates != nullptr ? &rates->group() : nullptr);
   if (!gravity) return gravity.error();
   gravity_ = *std::move(gravity);
   gravity_->add_first(track_);
+  if (rates != nullptr) gravity_->take_rates_of(*rates);
   for (const std::unique_ptr<Group>& group : groups_) {
-    group->label = column(group->wanted.name, widest_);
     io::FileExpected<void> opened;
-    if (group->array().field == io::FieldKind::rate) {
-      opened = open_rate(*group);
-    } else {
+    if (group->array().field != io::FieldKind::rate) {
       MonitorOptions options = options_of(own, group->wanted);
       options.label = group->label;
       auto watch = ArrayWatch::begin(options);
@@ -279,7 +287,7 @@ io::FileExpected<void> ToolWatch::put(const session::RateEvent& event, Group& gr
 
 io::FileExpected<void> ToolWatch::run() {
   // Within a row the accelerometers come last: the field of the block that ends there is known then, and the gyros
-  // wait for what they say of rest. Rates that are to correct the accelerometers are known there too.
+  // wait for what they say of rest. The rates that correct the accelerometers in motion are known there too.
   std::vector<session::LogShare> shares;
   for (const std::unique_ptr<Group>& group : groups_)
     shares.push_back(group->rate ? session::LogShare{&group->array(), group->rate.get(), {}} : group->watch->share());
@@ -380,7 +388,7 @@ io::ExitCode monitor_tool(const MonitorOptions& options) {
   const io::FileExpected<std::vector<Wanted>> groups = groups_of(options, *tool);
   if (!groups) return report(groups.error());
   if (const std::optional<io::FileError> clash = clash_of(options, *groups)) return report(*clash);
-  ToolWatch watch(options, *groups);
+  ToolWatch watch(options, *tool, *groups);
   if (const std::optional<io::ExitCode> ended = watch.begin()) return *ended;
   const io::FileExpected<void> done = watch.run();
   return done ? watch.say() : report(done.error());

@@ -36,7 +36,8 @@ io::FileError asked_in_vain(const io::FileError& refusal, const std::string& opt
 }  // namespace
 
 io::FileExpected<MonitorMotion> MonitorMotion::make(const MonitorOptions& options, const io::ArrayFile& array,
-                                                    const io::CalibrationFile* calibration, double days) {
+                                                    const io::CalibrationFile* calibration, double days,
+                                                    const session::RateGroup* gyros) {
   MonitorMotion out;
   if (!array.motion.mentioned) {
     const std::string asked = asking_option(options);
@@ -47,7 +48,7 @@ io::FileExpected<MonitorMotion> MonitorMotion::make(const MonitorOptions& option
   }
   io::FileExpected<session::MotionPlan> plan =
       session::plan_motion(array, calibration != nullptr ? &calibration->calibration : nullptr, days,
-                           calibration != nullptr ? calibration->motion.get() : nullptr);
+                           calibration != nullptr ? calibration->motion.get() : nullptr, gyros);
   if (plan) {
     if (!options.inclination.empty() && !plan->inclination)
       return tl::unexpected<io::FileError>(io::FileError{

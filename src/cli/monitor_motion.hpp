@@ -17,14 +17,20 @@ class MonitorMotion {
  public:
   /// `calibration`: null without one. Where motion is mentioned and cannot be judged, it says so on standard error;
   /// that is an error where --motion asks for its results.
+  /// `gyros`: the group that gives the rate, where it is watched beside (`session::plan_motion`).
   static io::FileExpected<MonitorMotion> make(const MonitorOptions& options, const io::ArrayFile& array,
-                                              const io::CalibrationFile* calibration, double days);
+                                              const io::CalibrationFile* calibration, double days,
+                                              const session::RateGroup* gyros);
 
   /// Joins the outputs of a run, behind those that are open.
   io::FileExpected<void> open(const MonitorOptions& options, const io::ArrayFile& array, Outputs& outputs);
   /// Whoever wants to hear what is found, where motion is judged; after `open`.
   void tell(session::MotionSink& sink) {
     if (watch_ != nullptr) watch_->tell(sink);
+  }
+  /// After `open`.
+  void take_rates_of(const session::RateWatch& gyros) {
+    if (watch_ != nullptr) watch_->take_rates_of(gyros);
   }
   io::FileExpected<void> commit();
   /// Something was judged though the tool never rested.

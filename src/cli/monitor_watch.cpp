@@ -123,12 +123,13 @@ std::optional<io::FileError> past_misuse(const MonitorOptions& options, const io
 
 }  // namespace
 
-tl::expected<std::unique_ptr<ArrayWatch>, io::ExitCode> ArrayWatch::begin(const MonitorOptions& options) {
+tl::expected<std::unique_ptr<ArrayWatch>, io::ExitCode> ArrayWatch::begin(const MonitorOptions& options,
+                                                                          const session::RateGroup* gyros) {
   if (const std::optional<io::FileError> misuse = misuse_of(options))
     return tl::unexpected<io::ExitCode>(report(*misuse));
   io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb monitor", Serves::lengths);
   if (!array) return tl::unexpected<io::ExitCode>(report(array.error()));
-  std::unique_ptr<ArrayWatch> out(new ArrayWatch(options, *std::move(array)));
+  std::unique_ptr<ArrayWatch> out(new ArrayWatch(options, *std::move(array), gyros));
   Ended ended = options.calibrate_first ? out->prepare_without_calibration() : out->prepare();
   if (!ended) ended = out->open();
   if (ended) return tl::unexpected<io::ExitCode>(*ended);
@@ -172,7 +173,7 @@ ArrayWatch::Ended ArrayWatch::prepare_without_calibration() {
 }
 
 ArrayWatch::Ended ArrayWatch::take_paper() {
-  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options_, aligned_, &*calibration_, days_);
+  io::FileExpected<MonitorMotion> motion = MonitorMotion::make(options_, aligned_, &*calibration_, days_, gyros_);
   if (!motion) return report(motion.error());
   motion_.emplace(*std::move(motion));
   io::FileExpected<std::unique_ptr<PaperMonitor>> monitor =
@@ -185,7 +186,7 @@ ArrayWatch::Ended ArrayWatch::take_paper() {
 
 ArrayWatch::Ended ArrayWatch::take_monitor() {
   io::FileExpected<MonitorMotion> motion =
-      MonitorMotion::make(options_, aligned_, calibration_ ? &*calibration_ : nullptr, days_);
+      MonitorMotion::make(options_, aligned_, calibration_ ? &*calibration_ : nullptr, days_, gyros_);
   if (!motion) return report(motion.error());
   motion_.emplace(*std::move(motion));
   io::FileExpected<std::unique_ptr<HealthMonitor>> monitor =

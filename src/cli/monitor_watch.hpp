@@ -21,8 +21,10 @@ namespace cli {
 class ArrayWatch {
  public:
   /// Reads array file and calibration, says on standard error what is to be known of them, plays the roll test, opens
-  /// the files. The error is how the command ends: it has been reported, or --limits has been answered.
-  static tl::expected<std::unique_ptr<ArrayWatch>, io::ExitCode> begin(const MonitorOptions& options);
+  /// the files. The error is how the command ends: it has been reported, or --limits has been answered. `gyros`: a
+  /// group that is watched beside and gives the rate in motion.
+  static tl::expected<std::unique_ptr<ArrayWatch>, io::ExitCode> begin(const MonitorOptions& options,
+                                                                       const session::RateGroup* gyros = nullptr);
 
   const io::ArrayFile& array() const noexcept { return array_; }
   const SensorArray& sensors() const noexcept { return monitor_ ? monitor_->array() : paper_->array(); }
@@ -34,6 +36,8 @@ class ArrayWatch {
   /// What the monitor in `monitor` was configured with; null of the paper's.
   const HealthMonitor* monitor() const noexcept { return monitor_.get(); }
   io::FileExpected<std::unique_ptr<MonitorSetup>> setup() const;
+  /// Those of the group that `begin` was given; it outlives the run.
+  void take_rates_of(const session::RateWatch& gyros) { motion_->take_rates_of(gyros); }
 
   session::LogShare share();
   /// Completes the files, the report among them.
@@ -42,7 +46,8 @@ class ArrayWatch {
   io::ExitCode say();
 
  private:
-  ArrayWatch(const MonitorOptions& options, io::ArrayFile array) : options_(options), array_(std::move(array)) {}
+  ArrayWatch(const MonitorOptions& options, io::ArrayFile array, const session::RateGroup* gyros)
+      : options_(options), array_(std::move(array)), gyros_(gyros) {}
   using Ended = std::optional<io::ExitCode>;
   Ended prepare();
   Ended prepare_without_calibration();
@@ -57,6 +62,7 @@ class ArrayWatch {
 
   MonitorOptions options_;
   io::ArrayFile array_, aligned_;
+  const session::RateGroup* gyros_;  ///< null: none
   std::optional<io::CalibrationFile> calibration_;
   double days_ = 0.0;  ///< since then
   std::string past_;   ///< what the run goes on from, in the table; empty: power-on

@@ -37,21 +37,30 @@ std::string kind_refusal(const std::string& word) {
   return "\"" + word + "\" is no flight; use one of: " + known;
 }
 
-void tell(const FlightFiles& files, const io::ArrayFile& array, const std::vector<scenario::Fault>& faults,
+void tell_unseen(const io::ArrayFile& array, const std::vector<scenario::Fault>& faults, const std::vector<int>& unseen,
+                 double last_time_s) {
+  for (const int k : unseen) {
+    print_error(fmt::format(
+        "plumb: --fault \"{}\" changed nothing: the flight (t = 0.000 to {:.3f} s) has no such time or station.\n",
+        scenario::to_text(faults[static_cast<std::size_t>(k)], io::fault_context(array)), last_time_s));
+  }
+}
+
+void tell(const FlightFiles& files, const io::ArrayFile& array, const ToolFaults& faults,
           const session::FlightPlay& play) {
-  const scenario::FaultContext context = io::fault_context(array);
+  const auto describe = [](const io::ArrayFile& of, const std::vector<scenario::Fault>& all) {
+    for (const scenario::Fault& fault : all) print(scenario::describe(fault, io::fault_context(of)) + "\n");
+  };
   if (files.out != "-" && files.truth != "-") {
-    for (const scenario::Fault& fault : faults) print(scenario::describe(fault, context) + "\n");
+    describe(array, faults.own);
+    for (std::size_t k = 0; k < faults.group.size(); ++k) describe(array.groups[k], faults.group[k]);
     print(fmt::format("written: {} ({}, t = 0.000 to {:.3f} s)\n", files.out, count_text(play.rows(), "row"),
                       play.last_time_s()));
     if (!files.truth.empty()) print(fmt::format("written: {}\n", files.truth));
   }
-  for (const int k : play.without_effect()) {
-    print_error(
-        fmt::format("plumb: --fault \"{}\" changed nothing: the flight (t = 0.000 to {:.3f} s) has no such time "
-                    "or station.\n",
-                    scenario::to_text(faults[static_cast<std::size_t>(k)], context), play.last_time_s()));
-  }
+  tell_unseen(array, faults.own, play.without_effect(), play.last_time_s());
+  for (std::size_t k = 0; k < faults.group.size(); ++k)
+    tell_unseen(array.groups[k], faults.group[k], play.without_effect(k), play.last_time_s());
 }
 
 }  // namespace
@@ -106,7 +115,7 @@ io::ExitCode run_flight(const FlightOptions& options, const FlightFiles& files) 
       read_accelerometers(files.array, "plumb simulate --flight",
                           "write a scenario with array = \"{}\", which turns the tool from station to station");
   if (!array) return report(array.error());
-  const io::FileExpected<std::vector<scenario::Fault>> faults = faults_of(options.faults, *array);
+  const io::FileExpected<ToolFaults> faults = tool_faults_of(options.faults, *array);
   if (!faults) return report(faults.error());
   std::optional<io::CalibrationFile> calibration;
   if (!options.calibration.empty()) {
@@ -119,7 +128,8 @@ io::ExitCode run_flight(const FlightOptions& options, const FlightFiles& files) 
   request.kind = kind_of(options.kind);
   request.duration_s = options.duration_s;
   request.seed = files.seed.value_or(request.seed);
-  request.faults = *faults;
+  request.faults = faults->own;
+  request.group_faults = faults->group;
   const io::FileExpected<std::unique_ptr<session::FlightPlay>> play = session::FlightPlay::make(*array, request);
   if (!play) return report(play.error());
   watch_interrupts();

@@ -219,6 +219,7 @@ ArrayFile array_of(const TomlNode& root, const std::string& text, const std::str
   read_sensors(own, out);
   read_clocks(root, path, out);
   refuse_columns_of(out, groups);
+  refuse_gyros_of(root, out, groups);
   out.fingerprint = fingerprint_of(out.datasheet);
   out.groups = std::move(groups);
   return out;

@@ -258,6 +258,28 @@ void refuse_columns_of(const ArrayFile& tool, const std::vector<ArrayFile>& grou
   }
 }
 
+void refuse_gyros_of(const TomlNode& root, const ArrayFile& tool, const std::vector<ArrayFile>& groups) {
+  const std::string& name = tool.motion.gyro.group;
+  if (name.empty()) return;
+  const int line = root.find("gyro")->find("group")->line;
+  const auto refuse = [&tool, line](const std::string& what, const std::string& remedy) {
+    throw Refusal(FileError{tool.path, line, "gyro.group", what, remedy});
+  };
+  std::string gyros;
+  bool known = false;
+  for (const ArrayFile& one : groups) {
+    if (one.field != FieldKind::rate) continue;
+    gyros += (gyros.empty() ? "" : ", ") + one.group;
+    known = known || one.group == name;
+  }
+  if (!known)
+    refuse("is " + in_quotes(name) + ", and no [[group]] of gyros is called so",
+           gyros.empty() ? "add a [[group]] with field = \"rate\", or remove the key" : "name one of: " + gyros);
+  if (!tool.motion.clocks.empty())
+    refuse("does not go with [[clock]]: the rate of a group is that of a row, and is not interpolated",
+           "log readings that were interpolated to one time (shortest_block in [motion]), and remove [[clock]]");
+}
+
 std::vector<std::string> with_rate_keys(std::vector<std::string> names) {
   for (const RateKey& key : kErrors) names.emplace_back(key.figure.key);
   return names;

@@ -15,9 +15,11 @@ struct BoundKey {
   std::optional<double> MotionBounds::*field;
 };
 
+constexpr const char* kLag = "lag_bound_s";
+
 constexpr BoundKey kBounds[] = {
     {{"lever_arm_bound_m", "m", 0.0, 1.0, "0.001"}, &MotionBounds::lever_arm_m},
-    {{"lag_bound_s", "s", 0.0, 1.0, "70e-6"}, &MotionBounds::lag_s},
+    {{kLag, "s", 0.0, 1.0, "70e-6"}, &MotionBounds::lag_s},
     {{"vibration_rectification_per_mps2", "1/(m/s^2)", 0.0, 1.0, "2e-5"}, &MotionBounds::rectification_per_mps2},
     {{"scale_bound", "", 0.0, 0.5, "0.001"}, &MotionBounds::scale},
     {{"axis_bound_rad", "rad", 0.0, 0.5, "0.0015"}, &MotionBounds::axis_rad},
@@ -34,7 +36,7 @@ constexpr GyroKey kGyro[] = {
     {{"axis_bound_rad", "rad", 0.0, 0.4, "0.01"}, &GyroSpec::axis_rad},
     {{"bias_bound_radps", "rad/s", 0.0, 10.0, "0.006"}, &GyroSpec::bias_radps},
     {{"noise_radps", "rad/s", 0.0, 10.0, "0.002"}, &GyroSpec::noise_radps},
-    {{"lag_bound_s", "s", 0.0, 1.0, "20e-6"}, &GyroSpec::lag_s},
+    {{kLag, "s", 0.0, 1.0, "20e-6"}, &GyroSpec::lag_s},
 };
 
 constexpr Figure kPeriod{"sample_period_s", "s", 1e-5, 1.0, "0.001"};
@@ -70,6 +72,7 @@ constexpr CountKey kCounts[] = {
 };
 
 constexpr const char* kBlocks = "block_samples";
+constexpr const char* kGyroGroup = "group";
 
 std::vector<std::string> known_motion_keys() {
   std::vector<std::string> out = {kPeriod.key, kRate.key, kVelocity.key, kWindow.key, kWait.key, kBlocks};
@@ -79,7 +82,7 @@ std::vector<std::string> known_motion_keys() {
 }
 
 std::vector<std::string> known_gyro_keys() {
-  std::vector<std::string> out = {"corroborated"};
+  std::vector<std::string> out = {kGyroGroup, "corroborated"};
   for (const GyroKey& key : kGyro) out.emplace_back(key.figure.key);
   return out;
 }
@@ -116,12 +119,29 @@ void read_blocks(const TomlTable& table, MotionSetup& limits) {
                "give 1 to " + std::to_string(limits.block_samples[2]) + ", or longer block_samples");
 }
 
+/// The gyros of a group have bounds of their own, and check each other.
+void refuse_beside_group(const TomlTable& table, const InputSpec& input) {
+  if (!input.rotation_columns.empty())
+    table.fail(table.line_of(kGyroGroup), kGyroGroup, "names a group of gyros, and [input] rotation_radps another gyro",
+               "keep one of them: the rates of the group, or the columns of rotation_radps");
+  for (const std::string& key : known_gyro_keys()) {
+    if (key == kGyroGroup || key == kLag || !table.has(key.c_str())) continue;
+    table.fail(
+        table.line_of(key.c_str()), key.c_str(), "is stated beside group, whose gyros have bounds of their own",
+        std::string("remove it; state only ") + kLag + " here, what the group lags the accelerometers by at most");
+  }
+}
+
 GyroSpec read_gyro(const TomlTable& table, const InputSpec& input) {
   GyroSpec out;
   out.stated = true;
-  if (input.rotation_columns.empty())
-    table.fail(table.line(), "", "describes a gyro, but [input] names no columns with its rates",
-               "add rotation_radps = [\"wx\", \"wy\", \"wz\"] to [input], or remove the table");
+  out.group = table.text(kGyroGroup, "");
+  if (!out.group.empty()) refuse_beside_group(table, input);
+  if (out.group.empty() && input.rotation_columns.empty())
+    table.fail(
+        table.line(), "", "describes a gyro, but [input] names no columns with its rates",
+        "add rotation_radps = [\"wx\", \"wy\", \"wz\"] to [input], or group with the name of a [[group]] of gyros, "
+        "or remove the table");
   for (const GyroKey& key : kGyro) read_into(table, key.figure, out.*key.field);
   const TomlNode* corroborated = table.find("corroborated");
   if (corroborated == nullptr) return out;

@@ -45,6 +45,8 @@ void read_rate_bounds(const TomlTable& table, RateErrors& errors);
 /// Every [[group]] of the file, with the layout of the log that `tool` states.
 /// A column that a sensor of a group and an accelerometer of `tool` would both read.
 void refuse_columns_of(const ArrayFile& tool, const std::vector<ArrayFile>& groups);
+/// `group` of [gyro] that is no group of gyros, or whose rates would have to be interpolated.
+void refuse_gyros_of(const TomlNode& root, const ArrayFile& tool, const std::vector<ArrayFile>& groups);
 std::vector<ArrayFile> read_groups(const TomlNode& root, const ArrayFile& tool, const FieldLookup& lookup);
 /// [[clock]], by the sensors, the gyros and [motion] of `out`, which must be set.
 void read_clocks(const TomlNode& root, const std::string& file, ArrayFile& out);

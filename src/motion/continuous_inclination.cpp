@@ -59,9 +59,10 @@ void ContinuousInclination::turn(const MotionSample& sample) noexcept {
   int given = 0;
   for (std::size_t g = 0; g < static_cast<std::size_t>(gyros_); ++g) {
     const Vec3& w = sample.rate_radps[g];
-    if (!sample.rate_given[g] || !usable(w)) continue;
+    const double off = sample.interpolation_radps[g];
+    if (!sample.rate_given[g] || !usable(w) || !(off >= 0.0 && off <= kMostRate_radps)) continue;
     ++given;
-    const double here = norm(cross(w, setup_.axis)) + relative * norm(w);
+    const double here = norm(cross(w, setup_.axis)) + relative * norm(w) + (1.0 + relative) * off;
     if (here > across) across = here;
   }
   const double larger = across > before_radps_ ? across : before_radps_;

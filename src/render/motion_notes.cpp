@@ -121,11 +121,20 @@ std::string deg_words(const RateInputs& in, double most_radps) {
                      rad_from_deg(in.largest_radps));
 }
 
-/// Of one gyro: its name in sentences, and the key of its columns.
+/// Of one gyro, or of a group: its name in sentences, and what to do where rates are missing or too large.
 struct Gyro {
   const RateInputs& in;
-  const char *rate, *columns;
+  std::string rate, log_them, check_unit;
 };
+
+Gyro gyro_of(const RateInputs& in, const char* rate, const char* columns) {
+  return {in, rate, "log the rates of every sample", fmt::format("write rad/s into the columns of {}", columns)};
+}
+
+Gyro gyro_group(const RateInputs& in) {
+  return {in, "the rate of the group of gyros", "see which gyros of the group deliver in every row",
+          "check the unit of the group"};
+}
 
 void add_rates(const Gyro& gyro, const MotionSetup& setup, std::vector<MotionNote>& out) {
   const RateInputs& in = gyro.in;
@@ -136,16 +145,14 @@ void add_rates(const Gyro& gyro, const MotionSetup& setup, std::vector<MotionNot
                                count_text(in.rates + in.missing, "row"), in.first_missing_s,
                                stated ? "there rate_bound_radps counts in its place, and bounds are wide"
                                       : "nothing is judged there"),
-                   stated ? "log the rates of every sample"
-                          : "log the rates of every sample, or state rate_bound_radps in [motion]"});
+                   gyro.log_them + (stated ? "" : ", or state rate_bound_radps in [motion]")});
   const double most_radps = stated ? setup.rate_bound_radps : kMostRate_radps;
   if (in.largest_radps > most_radps)
     out.push_back({"rate_too_large",
                    fmt::format("{} reaches {:.4g} rad/s at t = {:.3f} s, beyond {} {:.4g} rad/s{}", gyro.rate,
                                in.largest_radps, in.largest_at_s, stated ? "rate_bound_radps =" : "what gyros measure,",
                                most_radps, deg_words(in, most_radps)),
-                   fmt::format("write rad/s into the columns of {}{}", gyro.columns,
-                               stated ? "; raise rate_bound_radps if the tool turns so fast" : "")});
+                   gyro.check_unit + (stated ? "; raise rate_bound_radps if the tool turns so fast" : "")});
   if (in.still_s > std::fmax(kStill_s, kStillPeriods * setup.sample_period_s))
     out.push_back({"rate_stuck",
                    fmt::format("{} stood at {} for {:.3f} s from t = {:.3f} s on, while a gyro has noise", gyro.rate,
@@ -160,9 +167,12 @@ std::vector<MotionNote> motion_notes(const session::MotionRun& run, const Motion
   add_clock(run.inputs, setup, out);
   for (const session::ClockRun& clock : run.clocks) add_chip(clock, out);
   const MotionInputs& in = run.inputs;
-  if (setup.gyros > 0)
-    add_rates({in.gyro[0], setup.gyros > 1 ? "the rate of the first gyro" : "the rate", "rotation_radps"}, setup, out);
-  if (setup.gyros > 1) add_rates({in.gyro[1], "the rate of the second gyro", "second_rotation_radps"}, setup, out);
+  if (run.rates_of_group) add_rates(gyro_group(in.gyro[0]), setup, out);
+  if (setup.gyros > 0 && !run.rates_of_group)
+    add_rates(gyro_of(in.gyro[0], setup.gyros > 1 ? "the rate of the first gyro" : "the rate", "rotation_radps"), setup,
+              out);
+  if (setup.gyros > 1)
+    add_rates(gyro_of(in.gyro[1], "the rate of the second gyro", "second_rotation_radps"), setup, out);
   return out;
 }
 

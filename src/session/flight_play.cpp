@@ -8,6 +8,7 @@
 
 #include "clock_plan.hpp"
 #include "clocked_flight.hpp"
+#include "flight_gyros.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/session/interrupt.hpp"
@@ -93,7 +94,7 @@ class FlightTruth {
   io::FileExpected<void> head() {
     return file_.write("t_s,fx_mps2,fy_mps2,fz_mps2,wx_radps,wy_radps,wz_radps,faulty\n");
   }
-  io::FileExpected<void> write(const scenario::FlightSample& flown, SensorSet faulty) {
+  io::FileExpected<void> write(const scenario::FlightSample& flown, SensorSet faulty, const std::string& more) {
     const Vec3 f = io::in_frame(array_.output_frame, flown.specific_force_mps2);
     const Vec3 w = io::in_frame(array_.output_frame, flown.true_rate_radps);
     std::string line = io::shortest(flown.time_s);
@@ -104,7 +105,7 @@ class FlightTruth {
     for (int i = 0; i < array_.array.size(); ++i) {
       if (faulty.has(i)) names += (names.empty() ? "" : " ") + std::string(array_.array.row(i).id.data());
     }
-    return file_.write(line + "," + names + "\n");
+    return file_.write(line + "," + names + (names.empty() || more.empty() ? "" : " ") + more + "\n");
   }
   io::FileExpected<void> commit() { return file_.commit(); }
 
@@ -174,7 +175,32 @@ io::FileExpected<std::unique_ptr<FlightPlay>> FlightPlay::make(const io::ArrayFi
       request.faults, request.seed);
   if (!injector)
     return tl::unexpected<io::FileError>(io::FileError{"--fault", 0, "", injector.error(), "", io::ExitCode::usage});
-  return std::unique_ptr<FlightPlay>(new FlightPlay(array, request, *spec, *std::move(injector)));
+  std::unique_ptr<FlightPlay> out(new FlightPlay(array, request, *spec, *std::move(injector)));
+  for (std::size_t k = 0; k < array.groups.size(); ++k) {
+    const std::vector<scenario::Fault> none;
+    io::FileExpected<FlightGyros> group =
+        FlightGyros::make(array.groups[k], k < request.group_faults.size() ? request.group_faults[k] : none,
+                          request.seed, static_cast<std::uint32_t>(k));
+    if (!group) return tl::unexpected<io::FileError>(group.error());
+    out->groups_.push_back(*std::move(group));
+  }
+  out->group_samples_.resize(out->groups_.size());
+  return out;
+}
+
+std::vector<int> FlightPlay::without_effect(std::size_t group) const { return groups_[group].without_effect(); }
+
+std::string FlightPlay::add_groups(Row& row) {
+  std::string names;
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    SensorSet faulty;
+    group_samples_[k] = groups_[k].next(row.flown, faulty);
+    for (int i = 0; i < array_.groups[k].array.size(); ++i) {
+      if (faulty.has(i)) names += (names.empty() ? "" : " ") + std::string(array_.groups[k].array.row(i).id.data());
+    }
+  }
+  row.notes.groups = group_samples_.empty() ? nullptr : group_samples_.data();
+  return names;
 }
 
 /// Readings as the log has them, by the coefficients of the sensors that fly, and in codes where one is stated.
@@ -228,7 +254,7 @@ io::FileExpected<void> FlightPlay::run(const std::string& log_path, const std::s
     done = truth->head();
     if (!done) return done;
   }
-  io::FileExpected<io::LogWriter> log = io::LogWriter::create(log_path, array_, io::LogWriter::Columns::all);
+  io::FileExpected<io::LogWriter> log = io::LogWriter::create(log_path, array_, io::LogWriter::Columns::tool);
   if (!log) return tl::unexpected<io::FileError>(log.error());
   Progress progress("flying " + array_.name);
   const auto rows = static_cast<std::uint64_t>(std::llround(request_.duration_s * rate_hz_));
@@ -238,8 +264,9 @@ io::FileExpected<void> FlightPlay::run(const std::string& log_path, const std::s
     Row row = next();
     if (clocked_ != nullptr && row.flown.time_s > end_s) break;
     const SensorSet faulty = injector_.apply(row.sample);
+    const std::string more = add_groups(row);
     done = log->write(row.sample, row.notes);
-    if (done && truth) done = truth->write(row.flown, faulty);
+    if (done && truth) done = truth->write(row.flown, faulty, more);
     last_time_s_ = row.flown.time_s;
     progress.at(++rows_, row.flown.time_s);
   }

@@ -50,6 +50,11 @@ std::optional<io::FileError> unfit(const io::ArrayFile& array) {
     return refused(array, "clock[1]", "states a clock of its own, and a fit in motion takes sensors on one clock",
                    "fit a log in which all chips sample together, with an array file without [[clock]], or state "
                    "lever arms, lags and rectification with their bounds");
+  if (!array.motion.gyro.group.empty())
+    return refused(
+        array, "gyro.group", "gives the rate of a group, and a fit in motion reads that of one gyro",
+        "fit with an array file that names the columns of one gyro in [input] rotation_radps; what it finds of "
+        "the accelerometers counts beside the group too");
   if (array.input.rotation_columns.empty())
     return refused(array, "input.rotation_radps", "is missing, and lever arms show only by the rates of a gyro",
                    "log the rates of a gyro and name their columns: rotation_radps = [\"wx\", \"wy\", \"wz\"]");

@@ -71,17 +71,18 @@ Missing missing_in(const io::ArrayFile& array, bool calibrated, bool commissione
   missing.need(spec.sample_period_s.has_value() || array.input.rate_hz > 0.0, "motion.sample_period_s");
   missing.need(!array.lever_arm_m.empty() || commissioned, "sensor[1].lever_arm_m");
   need_bounds(array, calibrated, commissioned, missing);
-  if (array.input.rotation_columns.empty()) {
+  if (array.input.rotation_columns.empty() && spec.gyro.group.empty()) {
     missing.need(spec.rate_bound_radps.value_or(0.0) > 0.0, "motion.rate_bound_radps");
     return missing;
   }
   if (commissioned) return missing;
   const io::GyroSpec& g = spec.gyro;
+  missing.need(g.lag_s.has_value(), "gyro.lag_bound_s");
+  if (!g.group.empty()) return missing;
   missing.need(g.scale.has_value(), "gyro.scale_bound");
   missing.need(g.axis_rad.has_value(), "gyro.axis_bound_rad");
   missing.need(g.bias_radps.has_value(), "gyro.bias_bound_radps");
   missing.need(g.noise_radps.has_value(), "gyro.noise_radps");
-  missing.need(g.lag_s.has_value(), "gyro.lag_bound_s");
   return missing;
 }
 
@@ -109,7 +110,7 @@ GyroErrors gyro_of(const io::GyroSpec& stated, const io::MotionCalibration* comm
 }
 
 MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calibration, double days,
-                            const io::MotionCalibration* commissioned) {
+                            const io::MotionCalibration* commissioned, const GroupRates* rates) {
   const io::MotionSpec& spec = array.motion;
   MotionSetup out = spec.limits;
   out.sample_period_s = spec.sample_period_s ? *spec.sample_period_s : 1.0 / array.input.rate_hz;
@@ -119,6 +120,12 @@ MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calib
     out.lever_arm_m[k] = commissioned != nullptr ? commissioned->sensor[k].lever_arm_m : array.lever_arm_m[k];
     out.errors[k] = errors_of(array, calibration, i, days, commissioned);
   }
+  if (rates != nullptr) {
+    // All that the median is off by, but for its lag, is stated with each sample.
+    out.gyros = 1;
+    out.gyro_corroborated = true;
+    out.gyro.lag_s = *spec.gyro.lag_s + rates->lag_bound_s();
+  }
   if (array.input.rotation_columns.empty()) return out;
   out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
   out.gyro = gyro_of(spec.gyro, commissioned);
@@ -126,12 +133,25 @@ MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calib
   return out;
 }
 
+/// Of the group that [gyro] names.
+io::FileExpected<GroupRates> rates_of(const io::ArrayFile& array, const RateGroup* gyros) {
+  const std::string group = "is \"" + array.motion.gyro.group + "\"";
+  if (gyros == nullptr)
+    return tl::unexpected<io::FileError>(not_judged(
+        array, "gyro.group", group + ", and these gyros are not watched here",
+        "run plumb monitor with --group " + array.motion.gyro.group + ", or name the columns of a gyro in [input]"));
+  io::FileExpected<GroupRates> out = GroupRates::make(*gyros);
+  if (out) return out;
+  return tl::unexpected<io::FileError>(
+      not_judged(array, "gyro.group", group + ", which " + out.error().what, out.error().remedy));
+}
+
 /// What a log in motion showed is of the array that the file described then.
 std::optional<io::FileError> of_another_array(const io::ArrayFile& array, const io::MotionCalibration& commissioned) {
   const std::string again = "run plumb calibrate --motion again with this array file, or undo the change";
   const int gyros =
       (array.input.rotation_columns.empty() ? 0 : 1) + (array.input.second_rotation_columns.empty() ? 0 : 1);
-  if (gyros != commissioned.gyros)
+  if (array.motion.gyro.group.empty() && gyros != commissioned.gyros)  // of the gyros of a group it says nothing
     return not_judged(array, "input.rotation_radps",
                       "names " + std::to_string(gyros) + " gyros, and the calibration in motion was made with " +
                           std::to_string(commissioned.gyros),
@@ -204,7 +224,7 @@ DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& cali
 }
 
 io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days,
-                                         const io::MotionCalibration* commissioned) {
+                                         const io::MotionCalibration* commissioned, const RateGroup* gyros) {
   const auto refuse = [](io::FileError error) { return tl::unexpected<io::FileError>(std::move(error)); };
   if (!array.motion.stated)
     return refuse(not_judged(array, "motion", "is missing, while other keys of motion are given",
@@ -227,9 +247,14 @@ io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calib
   const Missing missing = missing_in(array, calibration != nullptr, commissioned != nullptr);
   if (!missing.none()) return refuse(missing.told(array));
   MotionPlan out;
+  if (const std::string& group = array.motion.gyro.group; !group.empty()) {
+    io::FileExpected<GroupRates> rates = rates_of(array, gyros);
+    if (!rates) return refuse(rates.error());
+    out.rates = *std::move(rates);
+  }
   out.array = calibration != nullptr ? calibrated_array(array, *calibration) : array.array;
   out.model = calibration != nullptr ? calibration->model : array.datasheet.model();
-  out.setup = motion_setup_of(array, calibration, days, commissioned);
+  out.setup = motion_setup_of(array, calibration, days, commissioned, out.rates ? &*out.rates : nullptr);
   out.clip_raw.fill(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < static_cast<std::size_t>(sensors); ++k) {
     const double full_scale_raw = array.datasheet.sensor[k].full_scale_raw;

@@ -49,6 +49,7 @@ MotionWatch::MotionWatch(const MotionPlan& plan)
       inputs_(plan.setup.sample_period_s),
       clock_s_(feed_.stated(), std::nan("")) {
   (void)monitor_->configure(plan_.array, plan_.setup);  // the plan has asked `check` already
+  run_.rates_of_group = plan_.rates.has_value();
   if (plan.inclination) (void)inclination_.emplace().configure(plan_.array, plan_.setup, *plan.inclination);
 }
 
@@ -64,7 +65,20 @@ MotionSample MotionWatch::row_of(const Sample& sample) {
     out.rate_given[g] = turn_[g]->rate_known;
     out.rate_radps[g] = turn_[g]->rate_radps;
   }
+  if (plan_.rates && gyros_ != nullptr) add_group_rate(out);
   return out;
+}
+
+/// Gyros that did not deliver in this row give no rate.
+void MotionWatch::add_group_rate(MotionSample& row) {
+  const RateSample& gyros = gyros_->newest();
+  ToolRate rate;
+  if (gyros.time_s == row.time_s) rate = plan_.rates->step(gyros, gyros_->failed());
+  inputs_.add_rate(0, rate.given, rate.rate_radps);
+  if (!rate.given) return;
+  row.rate_given[0] = true;
+  row.rate_radps[0] = rate.rate_radps;
+  row.interpolation_radps[0] = rate.bound_radps;
 }
 
 void MotionWatch::note_events(const MotionVerdict& before, const MotionVerdict& now, double time_s) {

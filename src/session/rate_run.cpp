@@ -43,6 +43,7 @@ RateSample rate_sample(const io::ArrayFile& array, const SensorModel& model, con
 
 RateWatch::RateWatch(const io::ArrayFile& array, RateGroup group, bool waits_for_rest)
     : array_(array), group_(std::move(group)), waits_(waits_for_rest) {
+  newest_.time_s = std::numeric_limits<double>::quiet_NaN();
   run_.calibrated = group_.calibrated;
   run_.common = group_.common;
 }
@@ -65,7 +66,8 @@ io::FileExpected<void> RateWatch::take(const stepping::Rows& rows) {
   io::FileExpected<void> done;
   for (std::size_t k = 0; k < rows.row.size() && done; ++k) {
     stepping_detail::take_row(rows, k, sample);
-    waiting_.push_back(rate_sample(array_, group_.model, sample));
+    newest_ = rate_sample(array_, group_.model, sample);
+    waiting_.push_back(newest_);
     if (!waits_ || waiting_.size() > kMostWaiting) done = step_until(waiting_.front().time_s, kNever_s);
   }
   return done;

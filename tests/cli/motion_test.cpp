@@ -70,6 +70,25 @@ TEST(MotionCommand, AGyroThatNothingCorroboratesIsOneMoreSuspect) {
   EXPECT_NEAR(motion["isolated"][0]["t_s"].get<double>(), 3.33, 0.05) << "it was 3.001 s";
 }
 
+// A gyro chip is dead from the moment on at which an accelerometer chip reads too much: both are named.
+// Verifies: REQ-243
+TEST(MotionCommand, AGroupOfGyrosGivesTheRateAndAFaultyChipOfItHidesNobody) {
+  const Directory where;
+  const std::string out = play_examples(where, {"motion/three_gyros.toml"});
+  EXPECT_TRUE(says(out, {"g2", "in motion   9998 of 10000 samples judged, 1 alarm, the first at 3.00",
+                         "isolated  x1, y1, z1 (imu1) at 3.0"}))
+      << out;
+  EXPECT_EQ(out.find("isolated           x2"), std::string::npos);
+  EXPECT_EQ(out.find("it holds only while the gyro is healthy"), std::string::npos);
+  const std::string text = read_text(PLUMB_SOURCE_DIR "/examples/motion/three_gyros.toml");
+  write_text(where / "array.toml", text);
+  const Outcome alone = monitor(where, {});
+  EXPECT_TRUE(says(alone.err, {"gyro.group", "motion is not judged", "--group gyros"})) << alone.err;
+  const Outcome asked = monitor(where, {"--motion", "force2.csv"});
+  EXPECT_NE(asked.code, 0);
+  EXPECT_TRUE(says(asked.err, {"--motion asks for its results"})) << asked.err;
+}
+
 TEST(MotionCommand, ACalibratedArrayIsJudgedAsWell) {
   const Directory where;
   const std::string out = play_examples(where, {"motion/stand.toml"});

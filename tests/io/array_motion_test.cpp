@@ -54,6 +54,41 @@ int line_of(const std::string& text, const std::string& key) {
   return static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
 }
 
+const std::string kGyros = R"(
+[[group]]
+name = "gyros"
+field = "rate"
+unit = "deg/s"
+[[group.sensor]]
+id = "g1"
+axis = [1, 0, 0]
+noise = "0.1 deg/s"
+[[group.sensor]]
+id = "g2"
+axis = [0, 1, 0]
+noise = "0.1 deg/s"
+[[group.sensor]]
+id = "g3"
+axis = [0, 0, 1]
+noise = "0.1 deg/s"
+)";
+
+TEST(ArrayMotion, TheRateMayBeThatOfAGroupOfGyros) {
+  const std::string gyro = "[gyro]\ngroup = \"gyros\"\nlag_bound_s = 2e-5\n";
+  const auto text_of = [](const std::string& motion) { return changed("[[sensor]]", motion + "[[sensor]]") + kGyros; };
+  const auto file = parse_array_text(text_of(gyro), "tool.toml");
+  ASSERT_TRUE(file.has_value()) << file.error().text();
+  EXPECT_EQ(file->motion.gyro.group, "gyros");
+  EXPECT_EQ(file->motion.gyro.lag_s, 2e-5);
+  EXPECT_TRUE(file->input.rotation_columns.empty());
+  const std::string another = text_of(changed("\"gyros\"", "\"gyro\"", gyro));
+  expect_refused(another, line_of(another, "group = "), "gyro.group", {"no [[group]] of gyros is called so", "gyros"});
+  const std::string beside = text_of(gyro + "scale_bound = 0.01\n");
+  expect_refused(beside, line_of(beside, "scale_bound"), "gyro.scale_bound", {"bounds of their own", "remove it"});
+  const std::string both = changed("reads = ", "rotation_radps = [\"wx\", \"wy\", \"wz\"]\nreads = ", text_of(gyro));
+  expect_refused(both, line_of(both, "group = "), "gyro.group", {"rotation_radps", "keep one"});
+}
+
 TEST(ArrayMotion, IsNotStatedInAFileWithoutIt) {
   const ArrayFile file = array_of();
   EXPECT_FALSE(file.motion.stated);

@@ -251,6 +251,40 @@ TEST(ContinuousInclination, AVelocityThatFollowsTheAxisIsInTheInterval) {
   EXPECT_FALSE(reads(0.3, 0.3)) << "beyond the bound: nothing is left that does not count";
 }
 
+/// The same cone with exact gyros, whose rates are drawn from their samples, or are the median of several: what each
+/// sample says that it may be off by counts. Rates that miss the cone by all of that leave the truth inside; a rate
+/// that states no number for it is none.
+// Negative: REQ-211
+TEST(ContinuousInclination, WhatASampleSaysThatItsRateIsOffByCounts) {
+  constexpr double kCone_rad = 0.05, kVelocity_mps = 0.5, kAcross_radps = kCone_rad * 4.0 * kPi;
+  Course cone;
+  cone.inclination_rad = 0.5 * kPi;
+  cone.roll_radps = 0.0;
+  cone.nod_rad = cone.swing_rad = kCone_rad;
+  cone.hz = 2.0;
+  cone.velocity_mps = [](double t) -> Vec3 {
+    const double angle = 4.0 * kPi * t;
+    return {0.0, -kVelocity_mps * std::sin(angle), -kVelocity_mps * std::cos(angle)};
+  };
+  MotionSetup exact = setup_of(6);
+  exact.gyro = {};
+  exact.gyros = 1;
+  exact.gyro_corroborated = true;
+  const auto misses_by = [&](double off_radps) {
+    Rig rig(cone, exact, window_of(20.0, kVelocity_mps));
+    rig.distort = [=](MotionSample& s) {
+      s.rate_radps[0] = {};
+      s.interpolation_radps[0] = off_radps;
+    };
+    EXPECT_EQ(rig.run(), off_radps >= 0.0);
+    return rig;
+  };
+  const Rig told = misses_by(kAcross_radps), untold = misses_by(0.0);
+  EXPECT_TRUE(holds(told.inclination.interval(), told.true_cosine));
+  EXPECT_FALSE(holds(untold.inclination.interval(), untold.true_cosine));
+  EXPECT_EQ(misses_by(std::nan("")).inclination.interval().status, InclinationStatus::rate_unknown);
+}
+
 /// An axis that is not quite the one that is stated.
 // Negative: REQ-211
 TEST(ContinuousInclination, TheAxisMayBeAnotherByItsBound) {

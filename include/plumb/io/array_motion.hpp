@@ -23,9 +23,10 @@ struct MotionBounds {
   std::optional<double> bias_mps2;
 };
 
-/// [gyro]: the triad whose rates `[input] rotation_radps` names.
+/// [gyro]: the triad whose rates `[input] rotation_radps` names, or a [[group]] of redundant gyros in its place.
 struct GyroSpec {
   bool stated = false;
+  std::string group;  ///< of gyros of the same file; of the bounds here only `lag_s` counts then
   std::optional<double> scale, axis_rad, bias_radps, noise_radps, lag_s;
   bool corroborated = false;  ///< the host knows by other means that it is right
 };

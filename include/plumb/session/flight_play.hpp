@@ -20,12 +20,14 @@ inline namespace PLUMB_ABI {
 namespace session {
 
 class ClockedFlight;
+class FlightGyros;
 
 struct FlightRequest {
   scenario::FlightKind kind = scenario::FlightKind::drone;
   double duration_s = 10.0;
   std::uint64_t seed = 1;
-  std::vector<scenario::Fault> faults;       ///< as `plumb inject` takes them
+  std::vector<scenario::Fault> faults;                     ///< as `plumb inject` takes them
+  std::vector<std::vector<scenario::Fault>> group_faults;  ///< likewise, of each group of the array file; empty: none
   const Calibration* calibration = nullptr;  ///< of the sensors that fly, which outlives it; null: the nominal ones
 };
 
@@ -44,8 +46,10 @@ class FlightPlay {
   io::FileExpected<void> run(const std::string& log_path, const std::string& truth_path);
   std::uint64_t rows() const noexcept { return rows_; }
   double last_time_s() const noexcept { return last_time_s_; }
-  /// Faults that no row has shown, as positions in the list of the request.
+  /// Faults that no row has shown, as positions in the list of the request; likewise those of a group of the array
+  /// file.
   std::vector<int> without_effect() const { return injector_.without_effect(); }
+  std::vector<int> without_effect(std::size_t group) const;
 
  private:
   FlightPlay(const io::ArrayFile& array, const FlightRequest& request, const scenario::FlightSpec& spec,
@@ -57,12 +61,16 @@ class FlightPlay {
   };
   Sample sample_of(const scenario::FlightSample& flown) const;
   Row next();
+  /// The readings of the groups at the instant of a row, and the names of those with a fault.
+  std::string add_groups(Row& row);
 
   const io::ArrayFile& array_;
   FlightRequest request_;
   scenario::Flight flight_;
   std::unique_ptr<ClockedFlight> clocked_;  ///< in its place, where chips have clocks of their own
   scenario::Injector injector_;
+  std::vector<FlightGyros> groups_;
+  std::vector<Sample> group_samples_;
   SensorModel model_;
   double rate_hz_;
   std::uint64_t rows_ = 0;

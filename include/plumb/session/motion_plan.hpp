@@ -9,6 +9,7 @@
 #include "plumb/io/array_file.hpp"
 #include "plumb/io/calibration_file.hpp"
 #include "plumb/motion/continuous_inclination.hpp"
+#include "plumb/session/group_rates.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -30,6 +31,7 @@ struct MotionPlan {
   SensorModel model;
   MotionSetup setup;
   std::optional<ClockPlan> clocks;              ///< where the file states one
+  std::optional<GroupRates> rates;              ///< where a group of gyros gives the rate (`[gyro] group`)
   std::optional<InclinationSetup> inclination;  ///< where the file bounds the velocity
   std::array<double, kCapacity> clip_raw{};     ///< from here on a reading counts as clipped; infinite: nowhere
 };
@@ -46,9 +48,11 @@ DerivedBounds derived_bounds(const io::ArrayFile& array, const Calibration& cali
 /// `array.motion.mentioned`. Without a calibration (null) the nominal coefficients count, and scale, axis and bias must
 /// be bounded by keys. `days` since the calibration. Where a log in motion was fitted (`commissioned`), its lever arms
 /// count with their bounds, and its other bounds where the array file states none. The inclination is that in the
-/// housing by `alignment_bound_rad` of the monitor, as `findings::with_alignment` sets it.
+/// housing by `alignment_bound_rad` of the monitor, as `findings::with_alignment` sets it. `gyros`: those of the group
+/// that `[gyro] group` names, where they are watched over the same rows; null: they are not.
 io::FileExpected<MotionPlan> plan_motion(const io::ArrayFile& array, const Calibration* calibration, double days,
-                                         const io::MotionCalibration* commissioned = nullptr);
+                                         const io::MotionCalibration* commissioned = nullptr,
+                                         const RateGroup* gyros = nullptr);
 
 /// Rows of a log as samples in motion: calibrated, and clipped where they are at full scale. Rates of rotation are left
 /// to the caller.

@@ -14,6 +14,7 @@
 #include "plumb/session/motion_feed.hpp"
 #include "plumb/session/motion_inputs.hpp"
 #include "plumb/session/motion_plan.hpp"
+#include "plumb/session/rate_run.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -42,7 +43,8 @@ struct MotionRun {
   /// Windows with an inclination, and how often there was none for another reason than before; the last of each.
   std::uint64_t inclinations = 0, inclination_breaks = 0;
   InclinationInterval inclination, no_inclination;
-  MotionInputs inputs;  ///< its steps are those of what was judged, its rates as they were delivered
+  bool rates_of_group = false;  ///< the rate is that of a group of gyros, one for all of them
+  MotionInputs inputs;          ///< its steps are those of what was judged, its rates as they were delivered
   std::vector<ClockRun> clocks;
   MotionVerdict last;
 
@@ -68,6 +70,8 @@ class MotionWatch final : public VerdictSink {
   explicit MotionWatch(const MotionPlan& plan);
 
   void tell(MotionSink& sink) { sinks_.push_back(&sink); }
+  /// Of a plan with `rates`: each row of `gyros` comes before the row of the same time here. It outlives the watch.
+  void take_rates_of(const RateWatch& gyros) { gyros_ = &gyros; }
   io::FileExpected<void> take(const Sample& sample, const Verdict& verdict) override;
   void at_turn(const stepping::Turn& turn) override;
   void at_second_turn(const stepping::Turn& turn) override;
@@ -77,6 +81,7 @@ class MotionWatch final : public VerdictSink {
 
  private:
   MotionSample row_of(const Sample& sample);
+  void add_group_rate(MotionSample& row);
   io::FileExpected<void> judge(const MotionSample& sample);
   void note_events(const MotionVerdict& before, const MotionVerdict& now, double time_s);
   void count(const MotionVerdict& verdict, double time_s);
@@ -87,6 +92,7 @@ class MotionWatch final : public VerdictSink {
   std::optional<ContinuousInclination> inclination_;
   MotionSampler sampler_;
   MotionFeed feed_;
+  const RateWatch* gyros_ = nullptr;
   MotionInputsWatch inputs_;
   std::array<std::optional<stepping::Turn>, kGyros> turn_{};  ///< of the sample to come, by gyro
   std::vector<double> clock_s_;                               ///< likewise, one a [[clock]]

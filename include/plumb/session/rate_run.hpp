@@ -64,6 +64,10 @@ class RateWatch final : public RowTaker, public TrackListener {
   io::FileExpected<void> take(const stepping::Rows& rows) override;
   io::FileExpected<void> rested(const TrackPoint& block) override;
   io::FileExpected<void> moved(double until_s) override;
+  /// The row that came last, whether or not it waits; and the axes that are known to have failed.
+  const RateSample& newest() const noexcept { return newest_; }
+  SensorSet failed() const noexcept { return run_.last.excluded | run_.last.off_at_rest; }
+  const RateGroup& group() const noexcept { return group_; }
   /// Rows that still wait are taken as in motion.
   io::FileExpected<RateRun> end(LogEnd end);
 
@@ -79,6 +83,7 @@ class RateWatch final : public RowTaker, public TrackListener {
   RateMonitor monitor_;
   bool waits_;
   std::deque<RateSample> waiting_;
+  RateSample newest_;
   std::vector<Sink> sinks_;
   Readings heard_s_{};
   RateRun run_;
