@@ -59,6 +59,8 @@ const std::string kGyros = R"(
 name = "gyros"
 field = "rate"
 unit = "deg/s"
+[group.rate]
+sample_period_s = 0.01
 [[group.sensor]]
 id = "g1"
 axis = [1, 0, 0]
