@@ -129,27 +129,39 @@ Range range_of(const FitHistory& history, const std::vector<Curve>& curves, doub
 std::string csv_name(const FitHistory& history) { return "calibration_" + digits_of(history.used) + ".csv"; }
 
 /// Two panels with the same axes, the paper's method at the left. The dashed lines are what is really the case.
-std::string parameter_script(const FitHistory& history, Kind kind, const std::string& name) {
+std::string parameter_script(const FitHistory& history, Kind kind, const std::string& name, bool narrow) {
   const std::vector<Curve> curves = curves_of(history.used, kind);
   const Range y = range_of(history, curves, unit_of(kind));
   const std::size_t last = std::max(history.paper.size(), history.own.size()) - 1;
   const bool many = curves.size() > 4;
-  std::string out = plot_head(name, 1000, many ? 520 : 460);
+  std::string out = plot_head(name, 1000, many ? Heights{520, 760} : Heights{460, 640}, narrow);
   out += fmt::format(
       "set xrange [-0.2:{}.2]\nset yrange [{:.6g}:{:.6g}]\nset xtics 1\nset xlabel 'iteration' offset 0,0.4\n"
       "set grid ytics lw 0.4 lc rgb '#999999'\nset tmargin at screen 0.9\nset bmargin at screen {}\nset multiplot\n",
       last, y.low, y.high, many ? 0.27 : 0.22);
+  const std::string rows = many ? (narrow ? "5" : "3") : (narrow ? "2" : "1");
   const char* const label = kind == Kind::bias    ? "bias, mg0"
                             : kind == Kind::scale ? "scale factor, V/g0"
                                                   : "misalignment m_{ij}";
   const auto panel = [&](const char* method, const char* title, bool left) {
-    std::string text = fmt::format(
-        "set lmargin at screen {}\nset rmargin at screen {}\nset label 1 '{}' at graph 0, graph 1 offset 0,0.7 left\n",
-        left ? 0.11 : 0.555, left ? 0.53 : 0.975, title);
-    text +=
-        left ? fmt::format("set ylabel '{}' offset 1.2\nset format y '%g'\nunset key\n", label)
-             : "unset ylabel\nset format y ''\nset key at screen 0.535, screen 0.01 center bottom horizontal maxrows " +
-                   std::string(many ? "3" : "1") + " samplen 2\n";
+    std::string text = fmt::format("set label 1 '{}' at graph 0, graph 1 offset 0,0.7 left\n", title);
+    // On a phone one above the other.
+    text += narrow ? fmt::format(
+                         "set lmargin at screen 0.2\nset rmargin at screen 0.97\nset tmargin at screen {}\n"
+                         "set bmargin at screen {}\n",
+                         left ? 0.95 : 0.53,
+                         left   ? 0.6
+                         : many ? 0.24
+                                : 0.18)
+                   : fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left ? 0.11 : 0.555,
+                                 left ? 0.53 : 0.975);
+    if (narrow)
+      text += left ? "unset xlabel\nset format x ''\n" : "set xlabel 'iteration' offset 0,0.4\nset format x '%g'\n";
+    if (left || narrow) text += fmt::format("set ylabel '{}' offset 1.2\nset format y '%g'\n", label);
+    if (!left && !narrow) text += "unset ylabel\nset format y ''\n";
+    text += left ? "unset key\n"
+                 : "set key at screen " + std::string(narrow ? "0.55" : "0.535") +
+                       ", screen 0.01 center bottom horizontal maxrows " + rows + " samplen 2\n";
     text += "plot ";
     for (const Curve& c : curves) {
       text += fmt::format("{:.6f} with lines lw 0.9 dt 2 lc rgb '{}' notitle, ", history.truth[c.index] * unit_of(kind),
@@ -169,23 +181,23 @@ std::string parameter_script(const FitHistory& history, Kind kind, const std::st
   return out + "unset multiplot\n";
 }
 
-std::string cost_script(const FitHistory& history) {
-  std::string out = plot_head("fig07_cost", 1000, 420);
+std::string cost_script(const FitHistory& history, bool narrow) {
+  std::string out = plot_head("fig07_cost", 1000, {420, 360}, narrow);
   const std::size_t last = std::max(history.paper.size(), history.own.size()) - 1;
   out += fmt::format(
-      "set lmargin at screen 0.095\n"
+      "set lmargin at screen {1}\n"
       "set rmargin at screen 0.975\n"
       "set tmargin at screen 0.95\n"
-      "set bmargin at screen 0.15\n"
-      "set xrange [-0.2:{}.2]\n"
+      "set bmargin at screen 0.16\n"
+      "set xrange [-0.2:{0}.2]\n"
       "set xtics 1\n"
       "set xlabel 'iteration' offset 0,0.4\n"
       "set logscale y\n"
       "set format y '10^{{%T}}'\n"
-      "set ylabel 'E_g, g0^4' offset 0.5\n"
+      "set ylabel 'E_g, g0^4' offset {2}\n"
       "set grid ytics lw 0.4 lc rgb '#999999'\n"
       "set key top right samplen 2\n",
-      last);
+      last, narrow ? 0.2 : 0.095, narrow ? 1.5 : 0.5);
   const auto curve = [&](const char* method, const char* colour, int point, double size, const char* title) {
     return fmt::format(
         "'{}' skip 1 using (strcol(1) eq '{}' ? $2 : NaN):3 with linespoints lw 1.5 pt {} ps {} lc rgb '{}' title '{}'",
@@ -303,7 +315,7 @@ constexpr Figure kFigures[] = {
 
 io::FileExpected<void> add_pictures(const DemoContext& context, const std::vector<FitHistory>& histories,
                                     render::Chapter& chapter) {
-  const auto add = [&](const char* name, const std::string& script, const char* title,
+  const auto add = [&](const char* name, const ScriptOf& script, const char* title,
                        const char* caption) -> io::FileExpected<void> {
     io::FileExpected<render::Picture> picture = draw(context.out, name, script, title, caption);
     if (!picture) return tl::unexpected<io::FileError>(picture.error());
@@ -313,14 +325,15 @@ io::FileExpected<void> add_pictures(const DemoContext& context, const std::vecto
   };
   for (const Figure& f : kFigures) {
     if (f.history == 1 && f.kind == Kind::bias) {
-      const io::FileExpected<void> cost =
-          add("fig07_cost", cost_script(histories.front()), "Fig 7: error of gravity",
-              "E_g of eq (10) over the 48 stations, of the vectors that each method computes. Both reach the noise, so "
-              "this figure alone does not show which parameters are right.");
+      const io::FileExpected<void> cost = add(
+          "fig07_cost", [&](bool narrow) { return cost_script(histories.front(), narrow); }, "Fig 7: error of gravity",
+          "E_g of eq (10) over the 48 stations, of the vectors that each method computes. Both reach the noise, so "
+          "this figure alone does not show which parameters are right.");
       if (!cost) return cost;
     }
-    const io::FileExpected<void> drawn =
-        add(f.name, parameter_script(histories[f.history], f.kind, f.name), f.title, f.caption);
+    const io::FileExpected<void> drawn = add(
+        f.name, [&](bool narrow) { return parameter_script(histories[f.history], f.kind, f.name, narrow); }, f.title,
+        f.caption);
     if (!drawn) return drawn;
   }
   return {};

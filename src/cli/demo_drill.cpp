@@ -140,7 +140,8 @@ class DrillSection {
         io::write_file(path("timeline.csv"), render::timeline_csv(record_->timeline));
     if (!written) return passed_on(written);
     return draw(
-        out_.string(), "timeline", render::timeline_script(record_->timeline, "timeline.csv", "timeline.svg"),
+        out_.string(), "timeline",
+        [this](bool narrow) { return render::timeline_script(record_->timeline, "timeline.csv", "timeline", narrow); },
         "The run in one picture",
         "Every dot is one block of samples taken while the tool stands still; the gaps are the moves between "
         "stations. Without plumb: the plain least-squares answer of all sensors with the same calibration. Amber "

@@ -18,8 +18,8 @@ constexpr const char* kPrinted[4][3] = {
     {"2√2/3", "0", "1/3"}, {"−√2/3", "√6/3", "1/3"}, {"−√2/3", "−√6/3", "1/3"}, {"0", "0", "1"}};
 
 /// The four axes in space, with their feet on the plane across the tool.
-std::string script_of(const SensorArray& array) {
-  std::string out = plot_head("geometry", 760, 430);
+std::string script_of(const SensorArray& array, bool narrow) {
+  std::string out = plot_head("geometry", 760, {430, 300}, narrow);
   out +=
       "set origin 0,0.06\n"
       "set view 64,52,2.25,1.0\n"
@@ -155,9 +155,9 @@ io::FileExpected<DemoSection> demo_geometry(const DemoContext& context) {
       "must add up to that of a4. One check detects a fault but does not isolate the sensor.",
       "The length of gravity is the second check: of the four triples only the one without the faulty sensor gives "
       "it at every attitude. This is the paper's idea, and the reason why several attitudes are needed below."};
-  io::FileExpected<render::Picture> picture =
-      draw(context.out, "geometry", script_of(*array), "Axes of the paper's tool",
-           "The four axes in the frame of the tool. Gravity is measured along each of them.");
+  io::FileExpected<render::Picture> picture = draw(
+      context.out, "geometry", [&array](bool narrow) { return script_of(*array, narrow); }, "Axes of the paper's tool",
+      "The four axes in the frame of the tool. Gravity is measured along each of them.");
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
   out.chapter.pictures.push_back(*std::move(picture));
   out.chapter.tables = {axes_table(*array), merit_table(f), triple_table(*array)};

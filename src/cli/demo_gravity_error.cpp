@@ -45,10 +45,10 @@ std::string csv_of(const GravityErrorStudy& study) {
 }
 
 /// A strip of points per combination and method, with a bar at the rms.
-std::string script_of(const GravityErrorStudy& study) {
-  std::string out = plot_head("fig11_gravity_error", 1000, 520);
+std::string script_of(const GravityErrorStudy& study, bool narrow) {
+  std::string out = plot_head("fig11_gravity_error", 1000, {520, 420}, narrow);
+  out += fmt::format("set lmargin at screen {}\n", narrow ? 0.2 : 0.095);
   out +=
-      "set lmargin at screen 0.095\n"
       "set rmargin at screen 0.975\n"
       "set tmargin at screen 0.89\n"
       "set bmargin at screen 0.12\n"
@@ -125,11 +125,12 @@ io::FileExpected<DemoSection> demo_gravity_error(const DemoContext& context) {
   if (!study) return study_failed(study.error());
   const io::FileExpected<void> written = write_into(context.out, kCsv, csv_of(*study));
   if (!written) return tl::unexpected<io::FileError>(written.error());
-  io::FileExpected<render::Picture> picture = draw(context.out, "fig11_gravity_error", script_of(*study),
-                                                   "Fig 11: error of gravity before and after calibration",
-                                                   "A point per attitude, a bar at the rms, on a logarithmic scale. "
-                                                   "Before: nominal axes and coefficients. After: the "
-                                                   "paper's five separate fits and plumb's one fit.");
+  io::FileExpected<render::Picture> picture = draw(
+      context.out, "fig11_gravity_error", [&study](bool narrow) { return script_of(*study, narrow); },
+      "Fig 11: error of gravity before and after calibration",
+      "A point per attitude, a bar at the rms, on a logarithmic scale. "
+      "Before: nominal axes and coefficients. After: the "
+      "paper's five separate fits and plumb's one fit.");
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
   DemoSection out;
   out.chapter.id = "gravity-error";

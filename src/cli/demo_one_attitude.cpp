@@ -66,27 +66,33 @@ std::string csv_of(const std::vector<Line>& lines) {
   return out;
 }
 
-/// Stacked bars, those of the two rules close together; the shares as numbers where there is room.
-std::string script_of(const std::vector<Line>& lines) {
-  std::string out = plot_head("one_attitude", 1000, 640);
+/// Stacked bars, those of the two rules close together; the shares as numbers where there is room. On a phone what
+/// fails stands above its two bars, else beside them.
+std::string script_of(const std::vector<Line>& lines, bool narrow) {
+  const double pitch = narrow ? 1.95 : 1.45, least_share = narrow ? 12.0 : 4.5;
+  std::string out = plot_head("one_attitude", 1000, {640, 900}, narrow);
   out += fmt::format(
-      "set lmargin at screen 0.385\n"
+      "set lmargin at screen {1}\n"
       "set rmargin at screen 0.97\n"
       "set tmargin at screen 0.99\n"
       "set bmargin at screen 0.25\n"
       "set xrange [0:100]\n"
-      "set yrange [{}:0.35]\n"
+      "set yrange [{0}:{2}]\n"
       "unset ytics\n"
       "set xtics nomirror\n"
       "set border 1\n"
       "set xlabel 'share of the blocks, %' offset 0,0.4\n"
-      "set key at screen 0.5, screen 0.01 center bottom vertical maxrows 3 Left reverse samplen 1.2\n",
-      -1.45 * static_cast<double>(lines.size()) / 2.0 - 0.1);
+      "set key at screen 0.5, screen 0.01 center bottom vertical maxrows {3} Left reverse samplen 1.2\n",
+      -pitch * static_cast<double>(lines.size()) / 2.0 + (narrow ? 0.7 : -0.1), narrow ? 0.25 : 0.385,
+      narrow ? 0.8 : 0.35, narrow ? 6 : 3);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const Line& line = lines[k];
-    const double top = -1.45 * static_cast<double>(k / 2) - (k % 2 == 0 ? 0.0 : 0.58);
+    const double top = -pitch * static_cast<double>(k / 2) - (k % 2 == 0 ? 0.0 : 0.58);
     const double bottom = top - 0.5;
-    if (k % 2 == 0) out += fmt::format("set label '{}' at screen 0.32, first {:.3f} right\n", line.what, top - 0.54);
+    if (k % 2 == 0) {
+      out += narrow ? fmt::format("set label '{}' at screen 0.02, first {:.3f} left\n", line.what, top + 0.35)
+                    : fmt::format("set label '{}' at screen 0.32, first {:.3f} right\n", line.what, top - 0.54);
+    }
     out += fmt::format("set label '{}' at graph 0, first {:.3f} right offset -0.6,0\n", line.rule, top - 0.25);
     double left = 0.0;
     for (std::size_t a = 0; a < line.count.of.size(); ++a) {
@@ -94,7 +100,7 @@ std::string script_of(const std::vector<Line>& lines) {
       if (share <= 0.0) continue;
       out += fmt::format("set object rect from {:.4f},{:.3f} to {:.4f},{:.3f} fc rgb '{}' fs solid noborder\n", left,
                          bottom, left + share, top, kLook[a].colour);
-      if (share >= 4.5) {
+      if (share >= least_share) {
         out += fmt::format("set label '{:.1f}' at {:.4f},{:.3f} center front tc rgb 'white'\n", share,
                            left + 0.5 * share, top - 0.25);
       }
@@ -222,10 +228,11 @@ io::FileExpected<void> add_one_attitude(const DemoContext& context, const study:
   const std::vector<Line> lines = lines_of(studies);
   const io::FileExpected<void> written = write_into(context.out, "one_attitude.csv", csv_of(lines));
   if (!written) return written;
-  io::FileExpected<render::Picture> picture =
-      draw(context.out, "one_attitude", script_of(lines), "The same experiments at one attitude",
-           fmt::format("Blocks at {} attitudes. Green and blue are correct results; amber, red and violet are errors.",
-                       studies.front().attitudes));
+  io::FileExpected<render::Picture> picture = draw(
+      context.out, "one_attitude", [&lines](bool narrow) { return script_of(lines, narrow); },
+      "The same experiments at one attitude",
+      fmt::format("Blocks at {} attitudes. Green and blue are correct results; amber, red and violet are errors.",
+                  studies.front().attitudes));
   if (!picture) return tl::unexpected<io::FileError>(picture.error());
   render::Chapter& chapter = section.chapter;
   for (std::string& line : text_of(studies.front(), studies.back())) chapter.text.push_back(std::move(line));

@@ -1,6 +1,7 @@
 /// Pictures and files of the demo's sections.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,22 @@ inline constexpr const char* kPaperColour = "#d0553c";
 inline constexpr const char* kOwnColour = "#2f78b7";
 inline constexpr const char* kDatasheetColour = "#8a8a8a";
 
-/// Head of a gnuplot program: terminal, output NAME.svg, separator, thin frame.
-std::string plot_head(const std::string& name, int width, int height);
+/// Height of a picture in pixels: `broad` of one for a desk, `narrow` of one as wide as a phone.
+struct Heights {
+  int broad, narrow;
+};
 
-/// Writes NAME.gp into `directory`, draws it with gnuplot and reads NAME.svg for inlining. Where gnuplot is missing or
-/// fails the picture says so; only a file that cannot be written or read is an error.
-io::FileExpected<render::Picture> draw(const std::string& directory, const std::string& name, const std::string& script,
+/// Head of a gnuplot program: terminal, output NAME.svg, separator, thin frame. `narrow`: for a phone, in place of
+/// `width`.
+std::string plot_head(const std::string& name, int width, Heights heights, bool narrow);
+
+/// The gnuplot program of a picture, for a desk or for a phone.
+using ScriptOf = std::function<std::string(bool narrow)>;
+
+/// Writes NAME.gp into `directory`, draws it with gnuplot and reads NAME.svg for inlining; likewise for a phone, of
+/// which no file is left. Where gnuplot is missing or fails the picture says so; only a file that cannot be written or
+/// read is an error.
+io::FileExpected<render::Picture> draw(const std::string& directory, const std::string& name, const ScriptOf& script_of,
                                        std::string title, std::string caption);
 
 /// Links the files that `draw` wrote for the chapter's last picture: NAME.svg only where there is one, and NAME.gp.

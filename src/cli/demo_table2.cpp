@@ -80,12 +80,10 @@ std::string csv_of(const Table2Study& study) {
   return out;
 }
 
-std::string script_of() {
-  return plot_head("table2", 760, 560) +
-         "set lmargin at screen 0.13\n"
+std::string script_of(bool narrow) {
+  return plot_head("table2", 760, {560, 420}, narrow) + fmt::format("set lmargin at screen {}\n", narrow ? 0.2 : 0.13) +
          "set rmargin at screen 0.96\n"
          "set tmargin at screen 0.96\n"
-         "set bmargin at screen 0.13\n"
          "set logscale xy\n"
          "set xrange [1e-4:2]\n"
          "set yrange [1e-4:2]\n"
@@ -180,7 +178,7 @@ io::FileExpected<DemoSection> demo_table2(const DemoContext& context) {
   const io::FileExpected<void> written = write_into(context.out, "table2.csv", csv_of(*study));
   if (!written) return tl::unexpected<io::FileError>(written.error());
   io::FileExpected<render::Picture> picture =
-      draw(context.out, "table2", script_of(), "Table 2: measured against printed",
+      draw(context.out, "table2", script_of, "Table 2: measured against printed",
            "All 115 mean absolute errors of the table. A point in the lower left or the upper right quarter leads to "
            "the printed verdict.");
   if (!picture) return tl::unexpected<io::FileError>(picture.error());

@@ -16,10 +16,17 @@ inline namespace PLUMB_ABI {
 namespace render {
 namespace {
 
-constexpr double kWidth = 205.0, kHeight = 66.0, kStepX = 225.0;
+constexpr double kHeight = 66.0, kStepX = 225.0, kPhoneStepY = 180.0;
+
+/// Of a shape, and what fits into a line of it.
+struct Width {
+  double px;
+  std::size_t letters;
+};
+constexpr Width kDesk{205.0, 30}, kPhone{178.0, 26};
 
 /// Up to four lines of about so many letters; longer text ends in dots.
-std::string lines_at(double x, double y, const std::string& text, std::size_t letters = 30) {
+std::string lines_at(double x, double y, const std::string& text, std::size_t letters) {
   std::vector<std::string> lines = {""};
   std::string word;
   for (const char c : text + " ") {
@@ -53,20 +60,21 @@ const char* colour_of_result(verification::Result result) {
   return "?";
 }
 
-std::string shape(const char* kind, double x, double y, const std::string& text, verification::Result result) {
+std::string shape(const char* kind, double x, double y, const std::string& text, verification::Result result,
+                  const Width& width) {
   const std::string style = fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\"", colour_of_result(result));
-  const double l = x - 0.5 * kWidth, r = x + 0.5 * kWidth, t = y - 0.5 * kHeight, b = y + 0.5 * kHeight;
+  const double l = x - 0.5 * width.px, r = x + 0.5 * width.px, t = y - 0.5 * kHeight, b = y + 0.5 * kHeight;
   std::string out;
   if (*kind == 'g')
-    out =
-        fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" {}/>\n", l, t, kWidth, kHeight, style);
+    out = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" {}/>\n", l, t, width.px, kHeight,
+                      style);
   if (*kind == 's')
     out = fmt::format("<path d=\"M{:.1f} {:.1f} H{:.1f} L{:.1f} {:.1f} H{:.1f} Z\" {}/>\n", l + 14.0, t, r, r - 14.0, b,
                       l, style);
   if (*kind == 'e')
-    out = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" rx=\"33\" {}/>\n", l, t, kWidth,
+    out = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" rx=\"33\" {}/>\n", l, t, width.px,
                       kHeight, style);
-  return out + lines_at(x, y, text, *kind == 'e' ? 27 : 30);
+  return out + lines_at(x, y, text, width.letters - (*kind == 'e' ? 3 : 0));
 }
 
 std::string arrow(double x1, double y1, double x2, double y2) {
@@ -144,29 +152,47 @@ std::vector<Strategy> judged_strategies(const std::vector<verification::Criterio
   return out;
 }
 
+/// One branch beside the other, each downwards.
+std::string branch_on_desk(const Branch& branch, Result result, std::size_t k, std::size_t of) {
+  const double middle = 0.5 * (kStepX * static_cast<double>(of) + 10.0);
+  const double x = kStepX * (static_cast<double>(k) + 0.5) + 5.0;
+  return arrow(middle, 78.0, x, 137.0) + shape("s", x, 170.0, branch.how, result, kDesk) + arrow(x, 203.0, x, 247.0) +
+         shape("g", x, 280.0, branch.goal, result, kDesk) + arrow(x, 313.0, x, 357.0) +
+         shape("e", x, 390.0, branch.evidence, result, kDesk);
+}
+
+/// One branch below the other, off a line at the left: how, the goal beside it, the evidence below that.
+std::string branch_on_phone(const Branch& branch, Result result, std::size_t k) {
+  const double y = 140.0 + kPhoneStepY * static_cast<double>(k), how = 105.0, goal = 305.0;
+  return arrow(6.0, y, how - 0.5 * kPhone.px + 7.0, y) + shape("s", how, y, branch.how, result, kPhone) +
+         arrow(how + 0.5 * kPhone.px - 7.0, y, goal - 0.5 * kPhone.px, y) +
+         shape("g", goal, y, branch.goal, result, kPhone) + arrow(goal, y + 33.0, goal, y + 47.0) +
+         shape("e", goal, y + 80.0, branch.evidence, result, kPhone);
+}
+
 }  // namespace
 
-std::string argument_svg(const Json& report) {
+std::string argument_svg(const Json& report, bool narrow) {
   const std::string verdict = report["verdict"]["verdict"];
   const std::vector<verification::Criterion> criteria = criteria_of(report);
   const std::vector<Strategy> strategies = judged_strategies(criteria);
-  const double width = kStepX * static_cast<double>(strategies.size()) + 10.0, middle = 0.5 * width;
+  const auto count = static_cast<double>(strategies.size());
+  const double width = narrow ? 400.0 : kStepX * count + 10.0, height = narrow ? 90.0 + kPhoneStepY * count : 440.0;
   std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} 440\" font-family=\"sans-serif\" font-size=\"12.5\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"12.5\" "
       "fill=\"currentColor\">\n",
-      width);
-  out += shape("g", middle, 45.0, report["subject"]["name"].get<std::string>() + " is fit for purpose: " + verdict,
+      width, height);
+  out += shape("g", narrow ? 105.0 : 0.5 * width, 45.0,
+               report["subject"]["name"].get<std::string>() + " is fit for purpose: " + verdict,
                verdict == "fit"       ? Result::met
                : verdict == "not fit" ? Result::not_met
-                                      : Result::open);
-  double x = 0.5 * kStepX + 5.0;
-  for (const Strategy strategy : strategies) {
-    const Branch branch = branch_of(strategy, report);
-    const Result result = verification::result_of(strategy, criteria);
-    out += arrow(middle, 78.0, x, 137.0) + shape("s", x, 170.0, branch.how, result);
-    out += arrow(x, 203.0, x, 247.0) + shape("g", x, 280.0, branch.goal, result);
-    out += arrow(x, 313.0, x, 357.0) + shape("e", x, 390.0, branch.evidence, result);
-    x += kStepX;
+                                      : Result::open,
+               narrow ? kPhone : kDesk);
+  if (narrow) out += arrow(16.0, 45.0, 6.0, 45.0) + arrow(6.0, 45.0, 6.0, 140.0 + kPhoneStepY * (count - 1.0));
+  for (std::size_t k = 0; k < strategies.size(); ++k) {
+    const Branch branch = branch_of(strategies[k], report);
+    const Result result = verification::result_of(strategies[k], criteria);
+    out += narrow ? branch_on_phone(branch, result, k) : branch_on_desk(branch, result, k, strategies.size());
   }
   return out + "</svg>\n";
 }

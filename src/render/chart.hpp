@@ -12,9 +12,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace render {
 
-/// A phone shows its chart as wide as this; letters keep the size that they have on a desk.
-inline constexpr int kNarrowWidth = 400;
-
 /// Anything set before is forgotten; the chart goes to the file `name`, data come as CSV. With `gnuplot -e narrow=1`
 /// the same is drawn for a phone, `narrow_height` high, into the file kNarrowPrefix + `name`; with `-e page=1` what
 /// `print axes(...)` says goes to a file beside it.

@@ -119,7 +119,7 @@ Section verdict_view(const Json& report) {
             "Verified: every test and formal item behind it was run and passed. Section 6 lists them.");
   if (!v["orphans"].empty()) out.list("Orphans", texts(v["orphans"]));
   out.picture(
-      "The argument", {inline_svg(argument_svg(report)), "", ""},
+      "The argument", {inline_svg(argument_svg(report)), "", inline_svg(argument_svg(report, true))},
       "The argument as a goal structure: the goal, six strategies, what each shows, and the section that holds the "
       "evidence.",
       "Goals are boxes, strategies are parallelograms, evidence is round. Green: shown; red: refuted; brown: open or "
@@ -134,7 +134,7 @@ Section array_view(const Json& report, const PagePictures& pictures) {
   const Json& a = report["array"];
   const Json& f = a["figures_of_merit"];
   Section out("array", "2 The array", "What these axes can determine, by analysis.");
-  out.picture("Axes", {axes_svg(a), "", ""},
+  out.picture("Axes", {axes_svg(a), "", axes_svg(a)},
               "The axes of the sensors, drawn in space; the table below lists their components.",
               "Seen from above the xy plane; z points down the tool. Dashed: down to the xy plane.");
   put_sizes(a["detection_sizes"], out);

@@ -317,7 +317,7 @@ Section machine_view(const Json& report) {
   Section out("machine", "5 State machine",
               "The one table that runs in the monitor, and where some replayed scenarios went.");
   const Json& coverage = machine["coverage"];
-  out.picture("States and transitions", {machine_svg(machine), "", ""},
+  out.picture("States and transitions", {machine_svg(machine, false), "", machine_svg(machine, true)},
               "The states of the monitor; thick lines are transitions that the replayed scenarios took, thin ones "
               "those that the table allows.",
               "Thick: taken by the replayed scenarios. Thin: possible by the table.");

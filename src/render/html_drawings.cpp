@@ -38,13 +38,19 @@ std::string text_at(Point p, const std::string& text, const std::string& style) 
 
 constexpr std::array<const char*, 6> kAxisColours = {"#2f78b7", "#d0553c", "#2c8f57", "#b97a00", "#8f55c4", "#1f8a99"};
 
-constexpr double kCentreX = 400.0, kCentreY = 235.0;
+/// The states stand on an ellipse, in the order of the table.
+struct Ellipse {
+  double x, y, half_width, half_height, all_width, all_height;
+  double first_rad;  ///< where the first state stands
 
-/// Where the states stand: on an ellipse, in the order of the table.
-Point place(std::size_t k, std::size_t of) {
-  const double angle = -0.5 * kPi + 2.0 * kPi * static_cast<double>(k) / static_cast<double>(of);
-  return {kCentreX + 290.0 * std::cos(angle), kCentreY + 185.0 * std::sin(angle)};
-}
+  Point place(std::size_t k, std::size_t of) const {
+    const double angle = first_rad + 2.0 * kPi * static_cast<double>(k) / static_cast<double>(of);
+    return {x + half_width * std::cos(angle), y + half_height * std::sin(angle)};
+  }
+};
+constexpr Ellipse kDesk{400.0, 235.0, 290.0, 185.0, 800.0, 470.0, -0.5 * kPi};
+/// None of the states beside another.
+constexpr Ellipse kPhone{200.0, 255.0, 112.0, 225.0, 400.0, 510.0, -0.5 * kPi + kPi / 14.0};
 
 /// A bow from one state to another; the way back takes the other side.
 std::string bow(Point a, Point b, double width, double opacity) {
@@ -102,8 +108,11 @@ std::string axes_svg(const Json& array) {
   return out + "</svg>";
 }
 
-std::string machine_svg(const Json& machine) {
-  std::string out = "<svg viewBox=\"0 0 800 470\" font-family=\"sans-serif\" font-size=\"14\" fill=\"currentColor\">\n";
+std::string machine_svg(const Json& machine, bool narrow) {
+  const Ellipse& ellipse = narrow ? kPhone : kDesk;
+  std::string out =
+      fmt::format("<svg viewBox=\"0 0 {} {}\" font-family=\"sans-serif\" font-size=\"{}\" fill=\"currentColor\">\n",
+                  ellipse.all_width, ellipse.all_height, narrow ? 13 : 14);
   std::map<std::string, std::size_t> number;
   for (const Json& mode : machine["modes"]) {
     const std::size_t next = number.size();
@@ -122,13 +131,13 @@ std::string machine_svg(const Json& machine) {
       moves[{number[move["from"]], number[move["to"]]}] += move["count"].get<std::uint64_t>();
   }
   for (const auto& [ends, count] : moves)
-    out += bow(place(ends.first, number.size()), place(ends.second, number.size()), count > 0 ? 3.0 : 1.0,
-               count > 0 ? 1.0 : 0.35);
+    out += bow(ellipse.place(ends.first, number.size()), ellipse.place(ends.second, number.size()),
+               count > 0 ? 3.0 : 1.0, count > 0 ? 1.0 : 0.35);
   for (const Json& mode : machine["modes"]) {
-    const Point p = place(number[mode["mode"]], number.size());
+    const Point p = ellipse.place(number[mode["mode"]], number.size());
     const std::string colour = colour_of_state(mode["state"]);
-    const bool narrow = mode["mode"].get<std::string>().size() < 12;
-    const double width = narrow ? 108.0 : 178.0;
+    const bool brief = mode["mode"].get<std::string>().size() < 12;
+    const double width = brief ? 108.0 : narrow ? 160.0 : 178.0;
     out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"36\" rx=\"9\" fill=\"{}\"/>\n",
                        p.x - 0.5 * width, p.y - 18.0, width, colour);
     out += text_at({p.x, p.y + 5.0}, mode["mode"], "text-anchor=\"middle\" fill=\"#ffffff\" font-weight=\"bold\"");

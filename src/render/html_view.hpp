@@ -133,7 +133,7 @@ Section change_view(const Json& report);
 
 /// Drawn here, without any other program: the axes, and the states with their transitions.
 std::string axes_svg(const Json& array);
-std::string machine_svg(const Json& machine);
+std::string machine_svg(const Json& machine, bool narrow);
 
 }  // namespace render
 }  // namespace PLUMB_ABI

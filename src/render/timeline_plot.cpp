@@ -15,13 +15,24 @@ namespace render {
 namespace {
 
 // Sizes in pixels of the picture.
-constexpr double kLineWidth = 1000.0;
-constexpr double kLeft = 105.0;
 constexpr double kRight = 25.0;
-constexpr std::size_t kMarkLines = 3;
-constexpr double kMarks = 76.0;  ///< three lines of text above the lanes
+constexpr double kMarkLine = 25.0;  ///< of text above the lanes
+
+/// For a desk or for a phone.
+struct Width {
+  double all, left;
+  std::size_t mark_lines;
+  bool narrow;
+  /// Of what is plotted.
+  double inner() const { return all - left - kRight; }
+};
+constexpr Width kDesk{1000.0, 105.0, 3, false};
+constexpr Width kPhone{kNarrowWidth, 92.0, 6, true};
+
 constexpr double kLane = 25.0;
-constexpr double kTitle = 46.0;  ///< above each lower panel
+constexpr double kTitle = 46.0;     ///< above each lower panel
+constexpr double kKeys = 76.0;      ///< below the lanes of a phone, in five lines
+constexpr double kKeyLines = 40.0;  ///< beside it on a phone, where the key stands below the title
 constexpr double kBottom = 60.0;
 constexpr double kCharacter = 8.0;  ///< width of a letter, generously
 
@@ -102,8 +113,8 @@ std::string draw_lane(const std::vector<Stretch>& lane, double middle) {
 }
 
 /// Names the runs of equal text where there is room.
-std::string name_runs(const Timeline& timeline, const std::vector<Stretch>& lane, double middle) {
-  const double pixels_per_s = (kLineWidth - kLeft - kRight) / (timeline.end_s - timeline.begin_s);
+std::string name_runs(const Timeline& timeline, const Width& width, const std::vector<Stretch>& lane, double middle) {
+  const double pixels_per_s = width.inner() / (timeline.end_s - timeline.begin_s);
   std::vector<Stretch> runs;
   for (const Stretch& s : lane) {
     if (s.text.empty()) continue;
@@ -164,14 +175,14 @@ std::string vertical_lines(const Timeline& timeline, bool changes) {
 }
 
 /// Beside their lines, each on the lowest line of text that is still free there.
-std::string mark_labels(const Timeline& timeline) {
-  const double s_per_pixel = (timeline.end_s - timeline.begin_s) / (kLineWidth - kLeft - kRight);
-  std::array<double, kMarkLines> free_s{};
-  free_s.fill(timeline.begin_s);
+std::string mark_labels(const Timeline& timeline, const Width& width) {
+  const double s_per_pixel = (timeline.end_s - timeline.begin_s) / width.inner();
+  std::vector<double> free_s(width.mark_lines, timeline.begin_s);
   std::string out;
   for (const TimelineMark& mark : timeline.marks) {
     const double length_s = kCharacter * static_cast<double>(mark.text.size()) * s_per_pixel;
-    const bool fits = mark.time_s + length_s <= timeline.end_s;
+    // Also over what is beside the lanes, where a picture is narrow.
+    const bool fits = mark.time_s + length_s <= timeline.end_s + kRight * s_per_pixel;
     const double from_s = fits ? mark.time_s : mark.time_s - length_s;
     std::size_t line = 0;
     while (line + 1 < free_s.size() && from_s < free_s[line]) ++line;
@@ -198,7 +209,7 @@ class Sheet {
   double at_ = 0.0;
 };
 
-std::string lanes(const Timeline& timeline, Sheet& sheet) {
+std::string lanes(const Timeline& timeline, const Width& width, Sheet& sheet) {
   const auto text_of = [](const char* text, bool quiet, const char* colour) {
     Stretch s;
     s.text = quiet ? "" : text;
@@ -216,15 +227,16 @@ std::string lanes(const Timeline& timeline, Sheet& sheet) {
   });
   const auto n = static_cast<int>(timeline.sensors.size());
   const double count = 3.0 + n;
-  std::string out = sheet.panel(kMarks, kLane * count);
+  std::string out = sheet.panel(kMarkLine * static_cast<double>(width.mark_lines), kLane * count);
   out += fmt::format("set yrange [0:{}]\nset format x ''\nset border 0\nunset xtics\n", count);
-  out += "set key at graph 1, graph 0 right top horizontal samplen 0.3 width -5\n";
+  out += std::string("set key at graph 1, graph 0 right top horizontal samplen 0.3 width -5") +
+         (width.narrow ? " maxcols 1\n" : "\n");
   std::string tics;
   double middle = count - 0.5;
   const std::pair<const char*, const std::vector<Stretch>*> named[] = {
       {"state", &state}, {"output", &output}, {"cause", &cause}};
   for (const auto& [name, lane] : named) {
-    out += draw_lane(*lane, middle) + name_runs(timeline, *lane, middle);
+    out += draw_lane(*lane, middle) + name_runs(timeline, width, *lane, middle);
     tics += fmt::format("'{}' {}, ", name, middle);
     middle -= 1.0;
   }
@@ -233,7 +245,7 @@ std::string lanes(const Timeline& timeline, Sheet& sheet) {
     tics += fmt::format("'{}' {}{}", timeline.sensors[static_cast<std::size_t>(i)], middle, i + 1 < n ? ", " : "");
     middle -= 1.0;
   }
-  out += fmt::format("set ytics ({}) scale 0\n", tics) + vertical_lines(timeline, false) + mark_labels(timeline);
+  out += fmt::format("set ytics ({}) scale 0\n", tics) + vertical_lines(timeline, false) + mark_labels(timeline, width);
   const std::pair<const char*, const char*> key[] = {{"in service", kInServiceColour},
                                                      {"provisionally excluded", kSetAsideColour},
                                                      {"excluded", kExcludedColour},
@@ -247,13 +259,14 @@ std::string lanes(const Timeline& timeline, Sheet& sheet) {
   return out + plots + "\nunset object\nunset label\nunset arrow\nset border 31 lw 0.7\nset ytics autofreq scale 0.6\n";
 }
 
-/// Title at the left, key at the right, both above the panel, so that neither hides a point.
-std::string frame(Sheet& sheet, double gap, double height, const char* title) {
-  return sheet.panel(gap, height) +
+/// Title at the left, key at the right, both above the panel, so that neither hides a point. On a phone there is no
+/// room for both in one line.
+std::string frame(Sheet& sheet, double gap, double height, const char* title, bool narrow) {
+  return sheet.panel(narrow ? gap + kKeyLines : gap, height) +
          fmt::format(
-             "set label 1 '{}' at graph 0, graph 1 offset 0,0.55 left front\n"
-             "set key at graph 1.005, graph 1 right bottom horizontal samplen 0.6 width -4 height 0.3\n",
-             title);
+             "set label 1 '{}' at graph {}, graph 1 offset 0,{} left front\n"
+             "set key at graph 1.005, graph 1 right bottom horizontal samplen 0.6 width -4 height 0.3{}\n",
+             title, narrow ? "-0.22" : "0", narrow ? 2.7 : 0.55, narrow ? " maxcols 2" : "");
 }
 
 /// Columns by name, as the CSV has them.
@@ -285,30 +298,35 @@ std::string errors(const std::string& csv, const char* plain, const char* plumb)
 
 }  // namespace
 
-std::string timeline_script(const Timeline& timeline, const std::string& csv, const std::string& svg) {
+std::string timeline_script(const Timeline& timeline, const std::string& csv, const std::string& name, bool narrow) {
+  const Width& width = narrow ? kPhone : kDesk;
   constexpr double kRatio = 130.0, kNorm = 130.0, kInclination = 160.0, kError = 180.0;
-  const double height = kMarks + kLane * (3.0 + static_cast<double>(timeline.sensors.size())) + 5.0 * kTitle + kRatio +
-                        kNorm + kInclination + kError - kTitle + 24.0 + kBottom;
+  const double height = kMarkLine * static_cast<double>(width.mark_lines) +
+                        kLane * (3.0 + static_cast<double>(timeline.sensors.size())) + 4.0 * kTitle + kRatio + kNorm +
+                        kInclination + kError + 24.0 + kBottom + (narrow ? 4.0 * kKeyLines + kKeys : 0.0);
   std::string out = fmt::format(
-      "# Draws {1} from {0}. Run: gnuplot timeline.gp\n"
-      "set terminal svg size {2:.0f},{3:.0f} dynamic font 'sans-serif,15' linewidth 1.2\nset output '{1}'\n"
+      "# Draws {1}.svg from {0}. Run: gnuplot {1}.gp\n"
+      "set terminal svg size {2:.0f},{3:.0f} dynamic font 'sans-serif,15' linewidth 1.2\nset output '{1}.svg'\n"
       "set datafile separator ','\nset datafile missing ''\n{4}"
       "set lmargin at screen {5}\nset rmargin at screen {6}\n"
       "set xrange [{7:.6g}:{8:.6g}]\nset border 31 lw 0.7\nset tics scale 0.6\nset multiplot\n",
-      csv, svg, kLineWidth, height, kLineColours, kLeft / kLineWidth, 1.0 - kRight / kLineWidth, timeline.begin_s,
-      timeline.end_s);
+      csv, (narrow ? kNarrowPrefix + name : name), width.all, height, kLineColours, width.left / width.all,
+      1.0 - kRight / width.all, timeline.begin_s, timeline.end_s);
   Sheet sheet(height);
-  out += lanes(timeline, sheet);
-  out += frame(sheet, kTitle + 24.0, kRatio, "statistic / limit of the test that decides (above 1: alarm)");
+  out += lanes(timeline, width, sheet);
+  out += frame(
+      sheet, kTitle + 24.0 + (narrow ? kKeys : 0.0), kRatio,
+      narrow ? "statistic / limit (above 1: alarm)" : "statistic / limit of the test that decides (above 1: alarm)",
+      narrow);
   out += vertical_lines(timeline, true) +
          "set xtics\nset grid ytics lw 0.4 lc rgb '#999999'\nset logscale y\nset yrange [0.01:*]\nset format y '%g'\n";
   const std::string ratio = column("statistic_over_limit");
   out += "plot 1 lw 1.4 lc rgb '#c53a3a' notitle, " + points(csv, ratio + " > 0.01 ? " + ratio + " : 0.01", kSure, "") +
          "\n";
-  out += frame(sheet, kTitle, kNorm, "error of |g|, absolute") +
+  out += frame(sheet, kTitle, kNorm, "error of |g|, absolute", narrow) +
          "set ylabel 'mg0' offset 0.6\nset yrange [0.005:*]\nleast(x) = abs(x) > 0.005 ? abs(x) : 0.005\n" +
          errors(csv, "g_error_plain_mg0", "g_error_plumb_mg0") + "\n";
-  out += frame(sheet, kTitle, kInclination, "inclination") +
+  out += frame(sheet, kTitle, kInclination, "inclination", narrow) +
          "unset logscale y\nset yrange [*:*]\nset offsets 0,0,graph 0.06,graph 0.06\nset ylabel 'deg'\n";
   // Later series cover earlier ones: the truth is a ring, so that it stays visible around a right answer.
   const std::string inclination = column("inclination_plumb_deg");
@@ -316,7 +334,7 @@ std::string timeline_script(const Timeline& timeline, const std::string& csv, co
          points(csv, where(true, inclination), kSure, "with plumb") + ", " +
          points(csv, where(false, inclination), kUnsure, "unconfirmed") + ", " +
          points(csv, column("inclination_true_deg"), "pt 6 ps 0.85 lc rgb truth", "true") + "\n";
-  out += frame(sheet, kTitle, kError, "inclination error, absolute") +
+  out += frame(sheet, kTitle, kError, "inclination error, absolute", narrow) +
          "set xlabel 'time, s' offset 0,0.4\nset format x '%g'\nset logscale y\nunset offsets\nset yrange [0.0005:*]\n"
          "least(x) = abs(x) > 0.0005 ? abs(x) : 0.0005\n";
   out += errors(csv, "error_plain_deg", "error_plumb_deg") + ", " +

@@ -77,13 +77,12 @@ def check_charts(browser, least):
 
 
 def check_phone_charts(browser, name):
-    """Charts that are drawn by a program: as wide as the screen, without pushing, in letters that can be read."""
+    """Every picture is as wide as the screen, without pushing; charts that are drawn by a program have letters that can be read."""
     found = browser.execute_script("""return [...document.querySelectorAll('figure')].flatMap(f => {
       const plot = [...f.querySelectorAll('.plot')].find(p => p.offsetParent), svg = plot.querySelector('svg');
-      if (!svg.dataset.axes) return [];
       const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
       const letters = [...svg.querySelectorAll('[font-size]')].filter(t => t.textContent.trim()).map(t => scale * parseFloat(t.getAttribute('font-size')));
-      return [[plot.scrollWidth - plot.clientWidth, Math.min(...letters)]];
+      return [[plot.scrollWidth - plot.clientWidth, Math.min(...letters, 99)]];
     })""")
     assert found, name
     for over, letters in found:
@@ -211,6 +210,24 @@ def health_page(tool, source, folder):
     return pathlib.Path(folder, "health.html")
 
 
+def check_demo(browser, tool, folder, shots):
+    done = subprocess.run([tool, "demo", "--out", folder + "/demo"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    page = pathlib.Path(folder, "demo", "index.html")
+    browser.get(page.as_uri())
+    check_links(browser, page)
+    for width in WIDTHS.values():
+        set_view(browser, width, False)
+        assert browser.execute_script("return document.documentElement.scrollWidth") <= width, width
+    set_view(browser, WIDTHS["phone"], False)
+    check_phone_charts(browser, "demo")
+    if shots:
+        high = browser.execute_script("return document.documentElement.scrollHeight")
+        clip = {"x": 0, "y": 0, "width": WIDTHS["phone"], "height": min(high, 12000), "scale": 1}
+        shot = browser.execute_cdp_cmd("Page.captureScreenshot", {"format": "png", "captureBeyondViewport": True, "clip": clip})
+        pathlib.Path(shots, "demo-phone.png").write_bytes(base64.b64decode(shot["data"]))
+
+
 def survey_page(tool, source, folder):
     """Of the stations of docs/survey.md, two of which are spoilt."""
     text = (pathlib.Path(source) / "docs/survey.md").read_text()
@@ -228,6 +245,7 @@ def main(tool, source, shots=None):
             check_page(browser, verification_page(tool, source, folder), 6, shots, "")
             check_page(browser, health_page(tool, source, folder), 2, shots, "health-")
             check_page(browser, survey_page(tool, source, folder), 2, shots, "survey-")
+            check_demo(browser, tool, folder, shots)
         finally:
             browser.quit()
     print("the pages are sound")

@@ -14,6 +14,8 @@ namespace render {
 /// What a chart for a phone has before its name, and the file beside a chart that says where its axes lie has behind
 /// it.
 inline constexpr const char* kNarrowPrefix = "narrow-";
+/// A phone shows its chart as wide as this; letters keep the size that they have on a desk.
+inline constexpr int kNarrowWidth = 400;
 inline constexpr const char* kAxesSuffix = ".axes";
 
 /// A picture of its own; for a page, with its axes beside it; the same for a phone.

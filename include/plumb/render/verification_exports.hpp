@@ -22,7 +22,7 @@ std::string requirements_sdoc(const Json& report);
 /// What the tool was built from (SPDX 2.3, JSON).
 std::string spdx_json(const Json& report);
 /// The argument as a goal structure (SVG): the goal, the strategies, and what stands behind each.
-std::string argument_svg(const Json& report);
+std::string argument_svg(const Json& report, bool narrow = false);
 
 }  // namespace render
 }  // namespace PLUMB_ABI
