@@ -208,6 +208,7 @@ std::string motion_text(const MotionTold& told, const io::ArrayFile& array) {
     out += fmt::format("  cause     nobody is isolated: {}\n", explain(cause));
   if (run.gyro_disagreements > 0)
     out += fmt::format("  gyros     {}; first at {:.3f} s\n", kGyrosDisagree, run.gyros_disagree_s);
+  if (run.rates_of_group) out += "  rate      the median of the group of gyros\n";
   out += "  force     " + force_words(run) + "\n";
   if (told.inclination) out += "  inclined  " + inclination_words(run) + "\n";
   for (const MotionNote& note : motion_notes(run, *told.setup))

@@ -140,6 +140,10 @@ io::FileExpected<GroupRates> rates_of(const io::ArrayFile& array, const RateGrou
     return tl::unexpected<io::FileError>(not_judged(
         array, "gyro.group", group + ", and these gyros are not watched here",
         "run plumb monitor with --group " + array.motion.gyro.group + ", or name the columns of a gyro in [input]"));
+  if (!std::isfinite(gyros->common))
+    return tl::unexpected<io::FileError>(not_judged(
+        array, "gyro.group", group + ", and nothing bounds what its calibration leaves open for all gyros alike",
+        "calibrate the gyros with --turns, or state scale_bound and axis_bound_rad in [group.rate]"));
   io::FileExpected<GroupRates> out = GroupRates::make(*gyros);
   if (out) return out;
   return tl::unexpected<io::FileError>(

@@ -76,7 +76,8 @@ TEST(MotionCommand, AGroupOfGyrosGivesTheRateAndAFaultyChipOfItHidesNobody) {
   const Directory where;
   const std::string out = play_examples(where, {"motion/three_gyros.toml"});
   EXPECT_TRUE(says(out, {"gx2 is stuck", "in motion   9998 of 10000 samples judged, 1 alarm, the first at 3.00",
-                         "isolated  x1, y1, z1 (imu1) at 3.0", "excluded    gx2, gy2, gz2"}))
+                         "isolated  x1, y1, z1 (imu1) at 3.0", "rate      the median of the group of gyros",
+                         "excluded    gx2, gy2, gz2"}))
       << out;
   EXPECT_EQ(out.find("isolated           x2"), std::string::npos);
   EXPECT_EQ(out.find("it holds only while the gyro is healthy"), std::string::npos);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "motion_support.hpp"
@@ -208,6 +209,11 @@ TEST(GyroGroupInMotion, WithoutTheGroupMotionIsNotJudged) {
   const auto refused = session::plan_motion(few, nullptr, 0.0, nullptr, &*group);
   ASSERT_FALSE(refused.has_value());
   EXPECT_NE(refused.error().what.find("2 triads"), std::string::npos) << refused.error().text();
+  session::RateGroup open = *session::rate_group(tool.groups.at(0));
+  open.common = std::numeric_limits<double>::infinity();
+  const auto unbounded = session::plan_motion(tool, nullptr, 0.0, nullptr, &open);
+  ASSERT_FALSE(unbounded.has_value());
+  EXPECT_NE(unbounded.error().remedy.find("--turns"), std::string::npos) << unbounded.error().text();
 }
 
 // A row in which the gyros deliver nothing has no rate: what is stated of the fastest turn counts there.
