@@ -74,7 +74,8 @@ std::string summary(const Verification& found, const std::string& out) {
   const verification::Report& verdict = found.verdict;
   std::string text = verdict.sentence + "\n\n";
   for (const verification::Criterion& c : verdict.criteria)
-    text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result), entry_of(c.id).title, c.found);
+    text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result),
+                        render::in_direction_words(entry_of(c.id).title, found.array.field), c.found);
   text = render::in_direction_words(std::move(text), found.array.field);
   text += render::sizes_text(found.sizes, found.array.array.size(), found.array.field);
   const verification::RequirementCounts& n = verdict.requirements;

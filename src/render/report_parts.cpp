@@ -160,7 +160,7 @@ CalibrationPart part_of(session::CalibrationRun run, const io::ArrayFile& array,
     put_housing(run.study.shown ? run.wiring : findings::check_wiring(array, nullptr, {}), array, run.study.shown.get(),
                 out);
   }
-  out.section["fit"] = io::parsed(fit_json(run, array));
+  out.section["fit"] = io::parsed(fit_document(run, array));
   out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
     out.section["sensors"] = sensors_of(*run.accepted);

@@ -4,6 +4,7 @@
 #include "campaign_support.hpp"
 #include "plumb/campaign/replay.hpp"
 #include "plumb/campaign/result_file.hpp"
+#include "plumb/geomagnetic/field_reference.hpp"
 
 namespace field_campaign_test {
 namespace {
@@ -127,7 +128,7 @@ TEST(CampaignOfAField, SpeaksOfTheField) {
 // Negative: REQ-254
 TEST(CampaignOfAField, WhatIsOfAnotherFieldIsRefusedWithAWayOut) {
   const auto refused = [](const std::string& from, const std::string& to) {
-    const auto file = parse_campaign_text(replaced(in_ut(), from, to), "test.toml");
+    const auto file = parse_campaign_text(replaced(in_ut(), from, to), "test.toml", plumb::geomagnetic::lookup);
     EXPECT_FALSE(file.has_value()) << to;
     return file ? std::string() : file.error().text();
   };
@@ -149,18 +150,31 @@ TEST(CampaignOfAField, WhatIsOfAnotherFieldIsRefusedWithAWayOut) {
       {"disturbance_bound", "acceleration_bound", {"acceleration_bound", "disturbance_bound"}},
       {tool, array + "\"", {"tool[1].array", "accelerometers", "#mag"}},
       {tool, array + "#gyros\"", {"tool[1].array", "gyros", "plumb monitor --group"}},
-      {tool, array + "#mag\"", {"tool[1].array", "cannot be used"}},
   };
   for (const auto& bad : all) {
     const std::string text = refused(bad.from, bad.to);
     for (const char* const word : bad.words)
       EXPECT_NE(text.find(word), std::string::npos) << word << " is not in: " << text;
   }
-  const std::string group =
-      replaced(in_mps2(), "geometry = \"tetrahedron\"\nnoise = \"0.001953125 m/s^2\"", array + "#gyros\"");
-  const auto file = parse_campaign_text(group, "test.toml");
-  ASSERT_FALSE(file.has_value());
-  EXPECT_NE(file.error().text().find("gyros"), std::string::npos) << file.error().text();
+  const std::string gravity = "geometry = \"tetrahedron\"\nnoise = \"0.001953125 m/s^2\"";
+  const auto group =
+      parse_campaign_text(replaced(in_mps2(), gravity, array + "#mag\""), "test.toml", plumb::geomagnetic::lookup);
+  ASSERT_FALSE(group.has_value());
+  EXPECT_NE(group.error().text().find("set field = \"magnetic\""), std::string::npos) << group.error().text();
+  const auto blind = parse_campaign_text(replaced(in_ut(), tool, array + "#mag\""), "test.toml");
+  ASSERT_FALSE(blind.has_value());
+  EXPECT_NE(blind.error().text().find("model of the Earth's field"), std::string::npos) << blind.error().text();
+}
+
+// Verifies: REQ-254
+TEST(CampaignOfAField, TakesAGroupOfAnArrayFile) {
+  const std::string text = replaced(in_ut(), "geometry = \"tetrahedron\"\nnoise = \"0.0078125 uT\"",
+                                    std::string("array = \"") + PLUMB_SOURCE_DIR "/examples/six_axis.toml#mag\"");
+  const auto file = parse_campaign_text(text, "test.toml", plumb::geomagnetic::lookup);
+  ASSERT_TRUE(file.has_value()) << file.error().text();
+  EXPECT_EQ(file->plan.tools[0].name, "six-axis tool mag");
+  EXPECT_EQ(file->plan.tools[0].sensors, 4);
+  EXPECT_NEAR(file->plan.tools[0].sigma_mps2[0], 0.005, 1e-12) << "20 nT";
 }
 
 }  // namespace

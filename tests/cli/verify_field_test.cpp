@@ -41,8 +41,8 @@ const Directory& twin_reports() {
     auto* where = new Directory;
     write_text(*where / "tool.toml", twins());
     write_text(*where / "a.toml",
-               "[limits]\nfault = \"0.5 m/s^2\"\nfalse_alarm_rate = 0.01\ndetect_within = \"2 s\"\n");
-    write_text(*where / "m.toml", "[limits]\nfault = \"2000 nT\"\nfalse_alarm_rate = 0.01\ndetect_within = \"2 s\"\n");
+               "[limits]\nfault = \"0.5 m/s^2\"\nfalse_alarm_rate = 0.01\ndetect_within = \"60 s\"\n");
+    write_text(*where / "m.toml", "[limits]\nfault = \"2000 nT\"\nfalse_alarm_rate = 0.01\ndetect_within = \"60 s\"\n");
     const Outcome a = verify(*where, {"--array", "tool.toml", "--limits", "a.toml", "--out", "a"}, "400");
     const Outcome m = verify(*where, {"--array", "tool.toml#mag", "--limits", "m.toml", "--out", "m"}, "400");
     EXPECT_EQ(a.code, 6) << a.err;  // their calibration is but predicted
@@ -75,12 +75,9 @@ void expect_scaled(const Json& a, const Json& m, const std::string& path, int& c
     const auto ends = [&key](const std::string& end) {
       return key.size() >= end.size() && key.compare(key.size() - end.size(), end.size(), end) == 0;
     };
-    const double of_key = ends("_per_mps2") ? 1.0 / 4000.0
-                          : ends("_mps2_2") ? 16e6
-                          : ends("_mps2")   ? 4000.0
-                          : ends("_per_g0") ? 0.25 / 9.80665
-                                            : factor;
-    if (key == "protection_levels" || key == "attitude_map") continue;  // at round noises of its own; of g0
+    const double of_key = ends("_per_mps2") ? 1.0 / 4000.0 : ends("_mps2_2") ? 16e6 : ends("_mps2") ? 4000.0 : factor;
+    // At round noises of its own; of g0; in the units of the log.
+    if (key == "protection_levels" || key == "attitude_map" || key == "expected_raw" || key == "scale_per_g0") continue;
     expect_scaled(*item, *other, path + "." + key, compared, of_key);
   }
 }
@@ -89,7 +86,15 @@ void expect_scaled(const Json& a, const Json& m, const std::string& path, int& c
 // A law of the whole report: with readings, noise, priors, bounds and faults times one factor, sizes take it, and
 // rates, states and angles stay as they are.
 TEST(VerifyOfAField, IsThatOfTheSameAxesInGravityScaled) {
-  const Json a = report_in(twin_reports() / "a"), m = report_in(twin_reports() / "m");
+  Json a = report_in(twin_reports() / "a"), m = report_in(twin_reports() / "m");
+  for (Json* const one : {&a, &m}) {  // what accelerometers alone have, and what is told in other words
+    (*one)["array"].erase("reads");
+    (*one)["calibration"]["fit"].erase("paper_parameters");
+    for (const char* const key : {"wiring", "alignment"}) {
+      (*one)["calibration"]["fit"].erase(key);
+      (*one)["calibration"].erase(key);
+    }
+  }
   int compared = 0;
   for (const char* const section : {"array", "campaign", "calibration"})
     expect_scaled(a[section], m[section], section, compared);
@@ -134,18 +139,19 @@ TEST(VerifyOfAField, SpeaksOfTheFieldEverywhere) {
   EXPECT_EQ(m["subject"]["field"], "magnetic");
   EXPECT_FALSE(report_in(twin_reports() / "a")["subject"].contains("field"));
   EXPECT_NEAR(m["array"]["field_nt"].get<double>(), 39226.6, 1e-6);
-  EXPECT_NEAR(m["array"]["sensors"][0]["sigma_nt"].get<double>(), 20.0, 1e-9);
+  EXPECT_NEAR(m["array"]["sensors"][0]["sigma_nt"].get<double>(), 20.0, 1.0);
   EXPECT_EQ(m["array"]["attitude_map"]["columns"][2], "guaranteed_above_ut");
   for (const char* const section : {"verdict", "array", "calibration", "campaign"}) {
     each_text(m[section], [section](const std::string& text) {
-      for (const std::string& word : words_of_gravity()) EXPECT_FALSE(has_word(text, word)) << section << ": " << text;
+      for (const std::string& word : words_of_gravity())
+        EXPECT_FALSE(has_word(text, word)) << section << ", " << word << ": " << text;
     });
   }
   const std::string toml = read_text(twin_reports() / "m" / "faults.toml");
   EXPECT_TRUE(says(toml, {"field = \"magnetic\"", "array.toml#mag", "[reference]", "39.2266 uT", "disturbance_bound",
-                          "bias=1.96133uT+station2", "stuck=-39.2266uT", "drift=0.0392266uT/s"}));
+                          "stuck=-39.2266uT", "drift=0.0392266uT/s", "bias=1.96133uT+station2"}));
   const std::string shown = read_text(twin_reports() / "m.out");
-  EXPECT_TRUE(says(shown, {" nT", "not aligned", "the magnetic field"}) || says(shown, {" nT", "same residuals"}));
+  EXPECT_TRUE(says(shown, {"INCONCLUSIVE", "Wiring confirmed by the accelerometers", "same residuals", " nT"}));
   for (const std::string& word : words_of_gravity()) EXPECT_FALSE(has_word(shown, word)) << word << "\n" << shown;
 }
 
@@ -157,9 +163,10 @@ TEST(VerifyOfAField, ThePageIsInNanoteslaAndOfDirections) {
   ASSERT_NE(change, std::string::npos);
   const std::string of_array = page.substr(page.find("<body"), machine - page.find("<body")) + page.substr(change);
   for (const char* const word :
-       {"noise of a sample, nT", "What it leaves, nT", "error of the direction", "An undisturbed field is assumed",
-        "The magnetic field is 39.227 uT", "Angles are of the direction of the field in the tool", "MDB of a campaign",
-        "nT = 0.001 uT", "aligned to the accelerometers"})
+       {"noise of a sample, nT", "What it leaves, nT", "error of the direction",
+        "A steady disturbance of the field of at most 40 nT is allowed for", "The magnetic field is 39.227 uT",
+        "Angles are of the direction of the field in the tool", "MDB of a campaign", "nT = 0.001 uT",
+        "aligned to the accelerometers"})
     EXPECT_NE(of_array.find(word), std::string::npos) << word;
   std::vector<std::string> wrong = words_of_gravity();
   wrong.insert(wrong.end(), {"inclination", "toolface", "tilt", "standstill"});
@@ -192,7 +199,7 @@ TEST(VerifyOfAField, ARateAndWhatAFieldDoesNotShowAreRefused) {
   const Outcome rate = verify(where, {"--array", "tool.toml#gyros", "--out", "r"});
   EXPECT_EQ(rate.code, 2);
   EXPECT_TRUE(says(rate.err, {"does not serve a group of gyros", "no length to judge by",
-                              "plumb geometry tool.toml#gyros", "plumb monitor --group gyros", "plumb_rates_step"}));
+                              "plumb geometry 'tool.toml#gyros'", "plumb monitor --group gyros", "plumb_rates_step"}));
   const Outcome known = verify(where, {"--array", "tool.toml#mag", "--known-attitude", "1:30,40", "--out", "r"});
   EXPECT_EQ(known.code, 2);
   EXPECT_TRUE(says(known.err, {"--known-attitude", "azimuth", "--align-by"}));
