@@ -73,7 +73,7 @@ TEST(InterferenceInTheMonitor, ACasingTakesTheDirectionOfTheFieldWhileItLasts) {
   EXPECT_NE(back, std::string::npos) << "nominal again once it is past\n" << outcome.out;
 }
 
-// Verifies: REQ-255
+// Negative: REQ-255
 // What no test of this tool shows: the catalogue says so, and this is why.
 TEST(InterferenceInTheMonitor, WithinTheLimitsNothingShowsIt) {
   const Outcome outcome = disturbed("vector = [\"0 nT\", \"0 nT\", \"500 nT\"]\n");
