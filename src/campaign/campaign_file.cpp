@@ -60,8 +60,6 @@ void read_run(const TomlTable& top, const MonitorConfig& monitor, Plan& plan) {
   plan.validation_stations = whole(table, "validation_stations", 8, 1, kMostStations);
 }
 
-constexpr const char* kErrorsForm = "give true gravity minus configured gravity, in sigmas: errors = [0, 1, 3]";
-
 /// The length of the magnetic field: the range that an array file takes (docs/array-file.md).
 std::vector<double> read_reference(const TomlTable& top, Plan& plan) {
   const TomlTable table = section_of(top, "reference", {"value", "sigma", "errors"});
@@ -92,7 +90,8 @@ std::vector<double> read_gravity(const TomlTable& top, Plan& plan) {
   if (!(plan.gravity_sigma_mps2 >= 0.0 && plan.gravity_sigma_mps2 <= 0.1)) {
     table.fail(table.line_of("sigma"), "sigma", "is out of range", "give 0 to 0.1 m/s^2, as in \"0.1 mg0\"");
   }
-  return numbers(table, "errors", {0.0}, -100.0, 100.0, kErrorsForm);
+  return numbers(table, "errors", {0.0}, -100.0, 100.0,
+                 "give true gravity minus configured gravity, in sigmas: errors = [0, 1, 3]");
 }
 
 void read_calibration(const TomlTable& top, Plan& plan) {

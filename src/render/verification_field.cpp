@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "markup.hpp"
 #include "plumb/io/field_json.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/render/field_words.hpp"
@@ -21,11 +22,6 @@ constexpr std::array<const char*, 4> kOfTheArray = {"verdict", "array", "calibra
 constexpr std::array<std::string_view, 14> kNames = {"id",      "name",         "key",    "file",   "log",
                                                      "serial",  "made_by",      "date",   "replay", "limits_file",
                                                      "columns", "coefficients", "source", "status"};
-
-void replace_all(std::string& text, std::string_view phrase, std::string_view by) {
-  for (std::size_t at = text.find(phrase); at != std::string::npos; at = text.find(phrase, at + by.size()))
-    text.replace(at, phrase.size(), by);
-}
 
 Json with_words(const Json& value, io::FieldKind field) {  // NOLINT(misc-no-recursion) as deep as the report
   if (value.is_string()) return in_direction_words(value.get<std::string>(), field);
