@@ -281,7 +281,8 @@ tl::expected<Trials, std::string> play_trials(const campaign::CampaignFile& file
 std::string trials_csv(const Trials& trials) {
   const campaign::Plan& plan = trials.file.plan;
   std::string out =
-      "number,attitude,fault,faulty_sensors,gravity_sigmas,size_mdb,faulty_bits,excluded_bits,ever_excluded_bits,"
+      std::string("number,attitude,fault,faulty_sensors,") + (plan.magnetic ? "field" : "gravity") +
+      "_sigmas,size_mdb,faulty_bits,excluded_bits,ever_excluded_bits,"
       "ever_provisionally_excluded_bits,blocks,first_fault_block,alarm_block,isolated_block,failed,misleading,beyond_"
       "protection,"
       "tilt_before_alarm_deg,tilt_usable_deg\n";
