@@ -13,13 +13,21 @@ using io::TomlNode;
 using io::TomlTable;
 using std::size_t;
 
-/// What the texts of faults are read against: volts at 3 V/g0 (the levels that the paper's sensors broke at).
-scenario::FaultContext volts() {
+/// What the texts of faults are read against: volts at 3 V/g0 (the levels that the paper's sensors broke at), of
+/// magnetometers at 3 V for as much inside, 39.2266 uT.
+scenario::FaultContext volts(io::FieldKind field) {
   scenario::FaultContext context;
+  if (field == io::FieldKind::magnetic) context.vector = scenario::FaultContext::Vector::magnetic;
   context.datasheet.size = 1;
   context.datasheet.sensor[0].row.id = make_id("a1");
   context.datasheet.sensor[0].coefficients.scale[0] = 3.0 / kG0_mps2;
   return context;
+}
+
+const char* fault_form(io::FieldKind field) {
+  return field == io::FieldKind::magnetic
+             ? "write a fault without its sensor: stuck=0uT, bias=500nT, random=-50uT..50uT, none"
+             : "write a fault without its sensor: stuck=0V, bias=50mg0, random=-3V..3V, none";
 }
 
 /// Faults that name another sensor make no sense for a sensor that is drawn; those that lose or swap rows are of the
@@ -51,12 +59,12 @@ FaultPlan plan_of(const TomlTable& table, const TomlNode& node, const std::strin
     const auto which = static_cast<scenario::FaultKind>(k);
     log = log || (scenario::needs_whole_log(which) && kind == scenario::to_string(which));
   }
-  const auto fault = scenario::parse_fault((log ? "log:" : "a1:") + body + "@station1" + duration, volts());
+  const auto fault =
+      scenario::parse_fault((log ? "log:" : "a1:") + body + "@station1" + duration, volts(table.field_of()));
   if (!fault) {
     const size_t at = fault.error().find(" Remedy: ");
     table.fail(node.line, "spec", io::in_quotes(text) + ": " + fault.error().substr(0, at),
-               at == std::string::npos ? "write a fault without its sensor: stuck=0V, bias=50mg0, random=-3V..3V, none"
-                                       : fault.error().substr(at + 9));
+               at == std::string::npos ? std::string(fault_form(table.field_of())) : fault.error().substr(at + 9));
   }
   if (!can_be_drawn(*fault)) {
     table.fail(
@@ -98,8 +106,7 @@ FaultPlan shift(const TomlTable& table, int line, double least, double most) {
 FaultFamily family_of(const TomlTable& table) {
   FaultFamily out;
   for (const TomlNode* node : items_of(table, "spec")) {
-    const std::string text = table.text_with_unit(
-        *node, "spec", "write a fault without its sensor: stuck=0V, bias=50mg0, random=-3V..3V, none");
+    const std::string text = table.text_with_unit(*node, "spec", fault_form(table.field_of()));
     out.faults.push_back(plan_of(table, *node, text));
   }
   for (const TomlNode* node : items_of(table, "bias_mdb")) {

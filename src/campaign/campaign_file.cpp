@@ -60,7 +60,27 @@ void read_run(const TomlTable& top, const MonitorConfig& monitor, Plan& plan) {
   plan.validation_stations = whole(table, "validation_stations", 8, 1, kMostStations);
 }
 
+/// The length of the magnetic field: the range that an array file takes (docs/array-file.md).
+std::vector<double> read_reference(const TomlTable& top, Plan& plan) {
+  const TomlTable table = section_of(top, "reference", {"value", "sigma", "errors"});
+  constexpr double kLeast_ut = 20.0, kMost_ut = 70.0, kMostSigma_ut = 0.4, kUsualSigma_ut = 0.13;
+  plan.gravity_mps2 = table.need_quantity(Quantity::acceleration, "value",
+                                          "give the length of the field: [reference] with value = \"50.8 uT\"");
+  plan.gravity_sigma_mps2 = table.quantity(Quantity::acceleration, "sigma", io::kInside_per_ut * kUsualSigma_ut);
+  const double value_ut = plan.gravity_mps2 / io::kInside_per_ut;
+  if (!(value_ut >= kLeast_ut && value_ut <= kMost_ut)) {
+    table.fail(table.line_of("value"), "value", "is out of range", "give 20 to 70 uT");
+  }
+  const double sigma_ut = plan.gravity_sigma_mps2 / io::kInside_per_ut;
+  if (!(sigma_ut >= 0.0 && sigma_ut <= kMostSigma_ut)) {
+    table.fail(table.line_of("sigma"), "sigma", "is out of range", "give 0 to 400 nT, as in \"130 nT\"");
+  }
+  return numbers(table, "errors", {0.0}, -100.0, 100.0,
+                 "give true field minus configured field, in sigmas: errors = [0, 1, 3]");
+}
+
 std::vector<double> read_gravity(const TomlTable& top, Plan& plan) {
+  if (plan.magnetic) return read_reference(top, plan);
   const TomlTable table = section_of(top, "gravity", {"value", "sigma", "errors"});
   plan.gravity_mps2 = table.quantity(Quantity::acceleration, "value", kG0_mps2);
   plan.gravity_sigma_mps2 = table.quantity(Quantity::acceleration, "sigma", 1e-4 * kG0_mps2);
@@ -79,7 +99,8 @@ void read_calibration(const TomlTable& top, Plan& plan) {
   plan.calibration_mps2 = table.quantity(Quantity::acceleration, "left", 0.0);
   if (!(plan.calibration_mps2 >= 0.0 && plan.calibration_mps2 <= 0.1)) {
     table.fail(table.line_of("left"), "left", "is out of range",
-               "give the error that calibration left in a reading, 1 sigma, 0 to 0.1 m/s^2: left = \"0.03 mg0\"");
+               std::string("give the error that calibration left in a reading, 1 sigma, ") +
+                   (plan.magnetic ? "0 to 400 nT: left = \"20 nT\"" : "0 to 0.1 m/s^2: left = \"0.03 mg0\""));
   }
   plan.days_since_calibration = table.quantity(Quantity::ratio, "days", 0.0);
   if (!(plan.days_since_calibration >= 0.0 && plan.days_since_calibration <= kMostDaysSinceCalibration)) {
@@ -138,10 +159,31 @@ void lay_cells(const TomlTable& top, const std::vector<FaultFamily>& families, c
   }
 }
 
-CampaignFile parsed(const TomlNode& root, const std::string& path) {
-  const TomlTable top(root, path, "",
-                      {"name", "scenarios", "seed", "cells", "within_grade", "tool", "run", "gravity", "calibration",
-                       "monitor", "attitude", "fault", "expect"});
+/// What the sensors of a campaign measure: one field for all of its tools.
+io::FieldKind field_of(const TomlTable& any) {
+  const int which = any.choice("field", {"gravity", "magnetic", "rate"}, 0);
+  if (which == 2) {
+    any.fail(any.line_of("field"), "field",
+             "is \"rate\", and a campaign judges by the length of the vector, which a rate does not have",
+             "plumb geometry FILE#GROUP has the sizes of gyros, and plumb simulate with plumb monitor --group plays "
+             "faults against them; fields of a campaign: gravity, magnetic");
+  }
+  const bool magnetic = which == 1;
+  if (const char* const other = magnetic ? "gravity" : "reference"; any.has(other)) {
+    any.fail(any.line_of(other), other,
+             magnetic ? "is a section of a campaign of accelerometers" : "is a section of a campaign of magnetometers",
+             magnetic ? "state the length of the field in [reference]"
+                      : "state gravity in [gravity], or set field = \"magnetic\"");
+  }
+  return magnetic ? io::FieldKind::magnetic : io::FieldKind::gravity;
+}
+
+CampaignFile parsed(const TomlNode& root, const std::string& path, const io::FieldLookup& lookup) {
+  const std::vector<std::string> sections = {"name",     "field",     "scenarios",   "seed",    "cells",
+                                             "tool",     "run",       "gravity",     "monitor", "within_grade",
+                                             "attitude", "reference", "calibration", "fault",   "expect"};
+  const io::FieldKind field = field_of(TomlTable(root, path, "", sections));
+  const TomlTable top(root, path, "", sections, field);
   CampaignFile out;
   out.path = path;
   Plan& plan = out.plan;
@@ -157,7 +199,8 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   plan.seed = static_cast<std::uint64_t>(seed);
   plan.sweep = top.choice("cells", {"sweep", "drawn"}, 0) == 0;
   const bool within_grade = top.choice("within_grade", {"no", "yes"}, 0) == 1;
-  const MonitorConfig monitor = io::read_monitor({root, path, io::FieldKind::gravity, ""});
+  plan.magnetic = field == io::FieldKind::magnetic;
+  const MonitorConfig monitor = io::read_monitor({root, path, field, ""});
   if (monitor.mode != MonitorMode::plumb) {
     top.fail(top.line_of("monitor"), "monitor", "has mode = \"paper\", and a campaign runs plumb's own monitor",
              "set mode = \"plumb\", or remove the key");
@@ -171,7 +214,7 @@ CampaignFile parsed(const TomlNode& root, const std::string& path) {
   read_run(top, monitor, plan);
   const std::vector<double> gravity = read_gravity(top, plan);
   read_calibration(top, plan);
-  plan.tools = read_tools(top, monitor, io::read_usual_stability({root, path, io::FieldKind::gravity, ""}));
+  plan.tools = read_tools(top, monitor, io::read_usual_stability({root, path, field, ""}), lookup);
   plan.attitudes = read_attitudes(top);
   lay_cells(top, read_faults(top), gravity, within_grade, plan);
   out.expect = read_expectations(top);
@@ -197,7 +240,7 @@ std::vector<TomlTable> tables_of(const TomlTable& top, const char* key, const st
   std::vector<TomlTable> out;
   const TomlNode* node = top.find(key);
   if (node == nullptr) return out;
-  if (node->kind == TomlNode::Kind::table) return {TomlTable(*node, top.file(), key, known)};
+  if (node->kind == TomlNode::Kind::table) return {TomlTable(*node, top.file(), key, known, top.field_of())};
   if (node->kind != TomlNode::Kind::array) {
     top.fail(node->line, key, "is not a table", std::string("write [[") + key + "]] and its keys below");
   }
@@ -205,7 +248,8 @@ std::vector<TomlTable> tables_of(const TomlTable& top, const char* key, const st
     if (node->items[k].kind != TomlNode::Kind::table) {
       top.fail(node->line, key, "is not a list of tables", std::string("write [[") + key + "]] and its keys below");
     }
-    out.emplace_back(node->items[k], top.file(), std::string(key) + "[" + std::to_string(k + 1) + "]", known);
+    out.emplace_back(node->items[k], top.file(), std::string(key) + "[" + std::to_string(k + 1) + "]", known,
+                     top.field_of());
   }
   return out;
 }
@@ -220,7 +264,7 @@ TomlTable section_of(const TomlTable& top, const char* key, const std::vector<st
   if (node != nullptr && node->kind != TomlNode::Kind::table) {
     top.fail(node->line, key, "is not a table", std::string("write [") + key + "] and its keys below");
   }
-  return TomlTable(node == nullptr ? nothing : *node, top.file(), key, known);
+  return TomlTable(node == nullptr ? nothing : *node, top.file(), key, known, top.field_of());
 }
 
 int whole(const TomlTable& table, const char* key, int fallback, int least, int most) {
@@ -254,26 +298,28 @@ std::vector<double> numbers(const TomlTable& table, const char* key, const std::
   return out;
 }
 
-io::FileExpected<CampaignFile> parse_campaign_text(const std::string& text, const std::string& path) {
+io::FileExpected<CampaignFile> parse_campaign_text(const std::string& text, const std::string& path,
+                                                   const io::FieldLookup& lookup) {
   const io::FileExpected<TomlNode> root = io::parse_toml(text, path);
   if (!root) return tl::unexpected<io::FileError>(root.error());
   try {
-    return parsed(*root, path);
+    return parsed(*root, path, lookup);
   } catch (const io::Refusal& refusal) {
     return tl::unexpected<io::FileError>(refusal.error());
   }
 }
 
-io::FileExpected<CampaignFile> read_campaign(const std::string& path) {
+io::FileExpected<CampaignFile> read_campaign(const std::string& path, const io::FieldLookup& lookup) {
   const io::FileExpected<std::string> text = io::read_file(path);
   if (!text) return tl::unexpected<io::FileError>(text.error());
-  return parse_campaign_text(*text, path);
+  return parse_campaign_text(*text, path, lookup);
 }
 
 std::uint64_t hash_of(const Plan& plan) {
   PlanHash hash;
   hash.add(plan.seed);
   hash.add(plan.scenarios);
+  if (plan.magnetic) hash.add(1);  // of gravity nothing, so that the results of earlier versions go on
   for (const int number : {plan.sweep ? 1 : 0, plan.stations, plan.samples, plan.first_onset, plan.last_onset,
                            static_cast<int>(plan.start), plan.validation_stations, plan.window}) {
     hash.add(number);

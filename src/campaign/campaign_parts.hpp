@@ -22,8 +22,10 @@ int whole(const io::TomlTable& table, const char* key, int fallback, int least, 
 std::vector<double> numbers(const io::TomlTable& table, const char* key, const std::vector<double>& fallback,
                             double least, double most, const std::string& remedy);
 
-/// `usual`: the stability of every sensor that neither its [[tool]] nor its array file states one of.
-std::vector<ToolPlan> read_tools(const io::TomlTable& top, const MonitorConfig& monitor, const Stability& usual);
+/// `usual`: the stability of every sensor that neither its [[tool]] nor its array file states one of. `lookup` answers
+/// where a group of an array file states a place and a date.
+std::vector<ToolPlan> read_tools(const io::TomlTable& top, const MonitorConfig& monitor, const Stability& usual,
+                                 const io::FieldLookup& lookup);
 std::vector<AttitudePlan> read_attitudes(const io::TomlTable& top);
 
 /// What one `[[fault]]` contributes: kinds and sizes, and how many sensors at once.

@@ -42,15 +42,30 @@ int axes_of(int geometry, int sensors, AxisList& axes) {
 /// What the sensors state: `stability` comes with the usual one, and is that of an array file where it states any.
 using StabilityOfAll = std::array<Stability, kCapacity>;
 
-SensorArray array_from(const TomlTable& table, ToolPlan& tool, StabilityOfAll& stability) {
+/// Magnetometers in a campaign of gravity, or the other way round.
+[[noreturn]] void refuse_field(const TomlTable& table, const io::ArrayFile& file) {
+  const bool magnetic = table.field_of() == io::FieldKind::magnetic;
+  const bool rate = file.field == io::FieldKind::rate;
+  table.fail(table.line_of("array"), "array",
+             std::string("is of ") + io::units_of(file.field).sensor + "s, and this campaign is of " +
+                 io::units_of(table.field_of()).vector,
+             rate ? "a rate has no length to judge by; plumb geometry and plumb monitor --group serve gyros"
+             : magnetic
+                 ? "name a magnetic group of the file, \"tool.toml#mag\", or remove field = \"magnetic\""
+                 : "set field = \"magnetic\" at the top of the campaign, or name the file without #" + file.group);
+}
+
+SensorArray array_from(const TomlTable& table, const io::FieldLookup& lookup, ToolPlan& tool,
+                       StabilityOfAll& stability) {
   if (table.has("array")) {
     if (table.has("geometry"))
       table.fail(table.line_of("geometry"), "geometry", "and array both name axes", "keep one of the two");
-    const io::FileExpected<io::ArrayFile> file = io::read_array_file(table.text("array", ""));
+    const io::FileExpected<io::ArrayFile> file = io::read_array_file(table.text("array", ""), lookup);
     if (!file) {
       table.fail(table.line_of("array"), "array", "cannot be used: " + file.error().text(),
                  "give the path of an array file, relative to the directory in which plumb runs");
     }
+    if (file->field != table.field_of()) refuse_field(table, *file);
     tool.name = table.text("name", file->name);
     for (size_t i = 0; i < stability.size(); ++i) {
       if (file->stability[i].stated()) stability[i] = file->stability[i];
@@ -69,9 +84,10 @@ SensorArray array_from(const TomlTable& table, ToolPlan& tool, StabilityOfAll& s
         "give 4 for tetrahedron, 3 for triad, 4 or more for cone and cone-with-axis, 3, 4, 6 or 10 for platonic");
   }
   tool.name = table.text("name", geometries()[static_cast<size_t>(geometry)] + std::to_string(sensors));
-  const double sigma_mps2 = table.need_quantity(Quantity::acceleration, "noise",
-                                                "give the noise of one sample, 1 sigma: noise = \"0.2 mg0\"");
-  if (!(sigma_mps2 > 0.0)) table.fail(table.line_of("noise"), "noise", "is not above zero", "give it as \"0.2 mg0\"");
+  const std::string example = table.field_of() == io::FieldKind::magnetic ? "\"20 nT\"" : "\"0.2 mg0\"";
+  const double sigma_mps2 =
+      table.need_quantity(Quantity::acceleration, "noise", "give the noise of one sample, 1 sigma: noise = " + example);
+  if (!(sigma_mps2 > 0.0)) table.fail(table.line_of("noise"), "noise", "is not above zero", "give it as " + example);
   std::array<SensorRow, kCapacity> rows{};
   for (int i = 0; i < sensors; ++i) {
     SensorRow& row = rows[static_cast<size_t>(i)];
@@ -101,7 +117,8 @@ void fill_detectable(const SensorArray& array, const MonitorConfig& monitor, Too
 
 }  // namespace
 
-std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& monitor, const Stability& usual) {
+std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& monitor, const Stability& usual,
+                                 const io::FieldLookup& lookup) {
   std::vector<ToolPlan> out;
   const std::vector<std::string> keys =
       io::with_stability_keys({"name", "geometry", "sensors", "noise", "array", "resolution", "samples_per_row"});
@@ -109,7 +126,7 @@ std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& moni
     ToolPlan tool;
     StabilityOfAll stability{};
     stability.fill(usual);
-    const SensorArray array = array_from(table, tool, stability);
+    const SensorArray array = array_from(table, lookup, tool, stability);
     tool.sensors = array.size();
     // A row that is the mean of so many samples scatters less than one of them.
     const double shrink = std::sqrt(static_cast<double>(whole(table, "samples_per_row", 1, 1, kMostBehindARow)));
@@ -121,7 +138,7 @@ std::vector<ToolPlan> read_tools(const TomlTable& top, const MonitorConfig& moni
       tool.stability[static_cast<size_t>(i)] = {own.mps2, own.per_day_mps2, own.per_degc_mps2,
                                                 own.per_degc_per_min_mps2};
     }
-    tool.volt_per_mps2 = 3.0 / kG0_mps2;  // the paper's sensors
+    tool.volt_per_mps2 = 3.0 / kG0_mps2;  // the paper's sensors; of magnetometers 3 V are at 39.2266 uT
     tool.resolution_raw = tool.volt_per_mps2 * table.quantity(Quantity::acceleration, "resolution", 0.0);
     tool.grade = confirmed_grade(array, array.all());
     fill_detectable(array, monitor, tool);

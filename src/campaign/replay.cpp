@@ -191,6 +191,7 @@ tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scen
 std::string sentence_of(const Plan& plan, const Spec& spec) {
   scenario::FaultContext context;
   context.datasheet = campaign_kernel::datasheet_of(plan.tools[static_cast<size_t>(spec.tool)]);
+  if (plan.magnetic) context.vector = scenario::FaultContext::Vector::magnetic;
   std::string text = count_text(context.datasheet.size, "sensor") + " (" +
                      plan.tools[static_cast<size_t>(spec.tool)].name + "), " + count_text(spec.stations, "station") +
                      ": ";
@@ -200,7 +201,8 @@ std::string sentence_of(const Plan& plan, const Spec& spec) {
     text += (k == 0 ? "" : "; ") + scenario::describe(fault, context);
   }
   if (spec.gravity_sigmas != 0.0)
-    text += "; true gravity differs from the configured value by " + io::shortest(spec.gravity_sigmas) + " sigma";
+    text += std::string(plan.magnetic ? "; the true field" : "; true gravity") +
+            " differs from the configured value by " + io::shortest(spec.gravity_sigmas) + " sigma";
   return text + ".";
 }
 

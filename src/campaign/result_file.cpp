@@ -200,8 +200,9 @@ std::string summary_text(const CampaignFile& file, const Progress& progress) {
   };
   times("time to detect", tally.blocks_to_detect());
   times("time to isolate", tally.blocks_to_isolate());
-  out += fmt::format("largest tilt before any alarm: {:.4g} deg\n",
-                     static_cast<double>(tally.largest_undetected_nrad()) * kDegPerNrad);
+  out +=
+      fmt::format("largest {} before any alarm: {:.4g} deg\n", file.plan.magnetic ? "error of the direction" : "tilt",
+                  static_cast<double>(tally.largest_undetected_nrad()) * kDegPerNrad);
   return out;
 }
 

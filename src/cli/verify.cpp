@@ -13,6 +13,7 @@
 #include "plumb/render/paper.hpp"
 #include "plumb/render/plot.hpp"
 #include "plumb/render/verification_exports.hpp"
+#include "plumb/render/verification_field.hpp"
 #include "plumb/render/verification_page.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "tool.hpp"
@@ -33,12 +34,13 @@ constexpr const char* kVerifyNotes =
     "Examples:\n"
     "  plumb verify --array examples/paper_tool.toml --scenarios 2000\n"
     "  plumb verify --array tool.toml --limits limits.toml --stations stand.csv --out report\n"
+    "  plumb verify --array tool.toml#mag --calibration mag.json --out report-mag      # a magnetic group\n"
     "  plumb verify --array tool.toml --calibration cal.json --compare report/report.json --out report2\n\n"
     "A limits file (all keys optional):\n"
     "  [limits]\n"
     "  alert_limit = \"0.5 deg\"        # largest tilt error allowed\n"
     "  faults = 1                     # number of simultaneous sensor faults to isolate\n"
-    "  fault = \"5 mg0\"                # smallest constant error to detect\n"
+    "  fault = \"5 mg0\"                # smallest constant error to detect; of magnetometers \"500 nT\"\n"
     "  false_alarm_rate = 1e-3        # per block\n"
     "  misleading_rate = 1e-3         # per scenario, as the next\n"
     "  wrong_exclusion_rate = 1e-3\n"
@@ -72,7 +74,9 @@ std::string summary(const Verification& found, const std::string& out) {
   const verification::Report& verdict = found.verdict;
   std::string text = verdict.sentence + "\n\n";
   for (const verification::Criterion& c : verdict.criteria)
-    text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result), entry_of(c.id).title, c.found);
+    text += fmt::format("  {:<8} {:<52} {}\n", to_string(c.result),
+                        render::in_direction_words(entry_of(c.id).title, found.array.field), c.found);
+  text = render::in_direction_words(std::move(text), found.array.field);
   text += render::sizes_text(found.sizes, found.array.array.size(), found.array.field);
   const verification::RequirementCounts& n = verdict.requirements;
   text += fmt::format("\nrequirements: {} ({} active): {} verified, {} failed, {} open, {} traced without results\n",
@@ -132,10 +136,13 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   if (!made) return report(made.error());
   io::FileExpected<Verification> found = verify(options);
   if (!found) return report(found.error());
-  found->report["run"]["time"] = now_utc();
-  found->report["run"]["host"] = host_name();
-  found->report["run"]["machine"] = machine_name();
-  const std::string text = found->report.dump(1) + "\n";
+  const io::FieldKind field = found->array.field;
+  for (Json* const one : {&found->report, &found->told}) {
+    (*one)["run"]["time"] = now_utc();
+    (*one)["run"]["host"] = host_name();
+    (*one)["run"]["machine"] = machine_name();
+  }
+  const std::string text = found->told.dump(1) + "\n";
   folder.write("report.json", text);
   folder.write("traceability.json", found->traceability.dump(1) + "\n");
   folder.write(kArrayCopy, found->array.text);
@@ -144,25 +151,27 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   folder.put("trials-faults.csv", found->faults ? verification::trials_csv(*found->faults) : "");
   folder.put("trials-healthy.csv", found->healthy ? verification::trials_csv(*found->healthy) : "");
   if (folder.failure()) return report(*folder.failure());
+  const Json shown = render::verification_shown(found->report, field);
   const io::FileExpected<render::PagePictures> pictures =
       draw_pictures((fs::path(options.out) / render::kChartFolder).string(),
-                    render::verification_plot_files(found->report, found->geometry), render::kVerificationScript,
-                    render::verification_picture_names(found->report, found->geometry));
+                    render::verification_plots_in_field(render::verification_plot_files(shown, found->geometry), field),
+                    render::kVerificationScript, render::verification_picture_names(shown, found->geometry));
   if (!pictures) return report(pictures.error());
-  folder.write("report.html", render::verification_html(found->report, *pictures));
-  folder.write("junit.xml", render::junit_xml(found->report));
-  folder.write("needs.json", render::needs_json(found->report));
-  folder.write("requirements.sdoc", render::requirements_sdoc(found->report));
-  folder.write("spdx.json", render::spdx_json(found->report));
+  const std::string page = render::verification_page_in_field(render::verification_html(shown, *pictures), field);
+  folder.write("report.html", page);
+  folder.write("junit.xml", render::junit_xml(found->told));
+  folder.write("needs.json", render::needs_json(found->told));
+  folder.write("requirements.sdoc", render::requirements_sdoc(found->told));
+  folder.write("spdx.json", render::spdx_json(found->told));
   const bool analysed = found->facts.analysis_findings.has_value();
-  folder.put("analysis.sarif", analysed ? render::sarif_json(found->report["analysis"], PLUMB_VERSION) : "");
-  folder.write("argument.svg", render::argument_svg(found->report));
+  folder.put("analysis.sarif", analysed ? render::sarif_json(found->told["analysis"], PLUMB_VERSION) : "");
+  folder.write("argument.svg", render::in_direction_words(render::argument_svg(shown), field));
   if (folder.failure()) return report(*folder.failure());
   folder.leave_out("report.pdf");
-  if (options.pdf) print_pdf(options.out, render::verification_html(found->report, *pictures));
+  if (options.pdf) print_pdf(options.out, page);
   print(options.json ? text : summary(*found, options.out));
   const bool fit = found->verdict.fit == verification::Result::met;
-  if (!fit) print_error("plumb: " + found->verdict.sentence + "\n");
+  if (!fit) print_error("plumb: " + render::in_direction_words(found->verdict.sentence, field) + "\n");
   return fit ? io::ExitCode::done : io::ExitCode::verification_failed;
 }
 
@@ -171,7 +180,9 @@ io::ExitCode run_verify(const VerifyOptions& options) {
 Command add_verify(const Options& tool) {
   auto options = std::make_shared<VerifyOptions>();
   const Options command = tool.add_command("verify", "a report on one array: what it can guarantee, with the evidence");
-  command.add_option("--array", options->array, "the array file to verify").required().type_name("ARRAY.toml");
+  command.add_option("--array", options->array, "the array file to verify, or a magnetic group of it: tool.toml#mag")
+      .required()
+      .type_name("ARRAY.toml");
   command.add_option("--limits", options->limits, "your limits; see below").type_name("LIMITS.toml");
   command.add_option("--calibration", options->calibration, "what `plumb calibrate` wrote for this array")
       .type_name("CAL.json");

@@ -12,10 +12,24 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-constexpr const char* kInsteadOfGroup =
-    "plumb geometry {} has the least faults that it is sure to find, and plumb simulate with plumb monitor --group "
-    "plays "
-    "faults against it";
+/// Everything that is judged here is judged by the length of the vector, which a rate does not have.
+io::FileExpected<io::ArrayFile> read_group(const VerifyOptions& options) {
+  io::FileExpected<io::ArrayFile> array = read_array(options.array, "plumb verify", Serves::all);
+  if (!array) return array;
+  if (array->field == io::FieldKind::rate)
+    return tl::unexpected<io::FileError>(io::FileError{
+        options.array, 0, "", "plumb verify does not serve a group of gyros: a rate has no length to judge by",
+        "plumb geometry " + io::shell_word(options.array) +
+            " has the least faults that parity isolates; plumb monitor --group " + array->group +
+            " and plumb_rates_step in C watch them, and plumb simulate plays faults against both",
+        io::ExitCode::usage});
+  if (array->field != io::FieldKind::gravity && !options.known_attitudes.empty())
+    return tl::unexpected<io::FileError>(io::FileError{
+        "--known-attitude", 0, "",
+        "inclination and toolface do not say how the magnetic field lies in the tool: that takes an azimuth as well",
+        "give --calibration CAL.json as plumb calibrate --align-by wrote it", io::ExitCode::usage});
+  return array;
+}
 
 io::FileExpected<void> note_input(const char* role, const std::string& path, VerifyInputs& inputs) {
   if (path.empty()) return {};
@@ -42,7 +56,7 @@ io::FileExpected<VerifyInputs> read_inputs(const VerifyOptions& options, Verific
   VerifyInputs inputs;
   std::optional<io::FileError> error;
   const auto fail = [&error] { return tl::unexpected<io::FileError>(*error); };
-  if (!take(read_accelerometers(options.array, "plumb verify", kInsteadOfGroup), out.array, error)) return fail();
+  if (!take(read_group(options), out.array, error)) return fail();
   take_known_attitudes(options.known_attitudes, out.array);
   inputs.limits = verification::limits_of(out.array);
   if (!options.limits.empty() && !take(verification::read_limits(options.limits, out.array), inputs.limits, error))
@@ -65,7 +79,8 @@ io::FileExpected<VerifyInputs> read_inputs(const VerifyOptions& options, Verific
   } else if (!take(render::read_traceability(options.traceability), out.traceability, error)) {
     return fail();
   }
-  for (const auto& [role, path] : {std::pair<const char*, const std::string&>{"array", options.array},
+  const std::string array_file = array_file_of(options.array);
+  for (const auto& [role, path] : {std::pair<const char*, const std::string&>{"array", array_file},
                                    {"limits", options.limits},
                                    {"calibration", options.calibration},
                                    {"stations", options.stations},

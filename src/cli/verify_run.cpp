@@ -7,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "plumb/geomagnetic/field_reference.hpp"
 #include "plumb/health/health_monitor.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/io/output_file.hpp"
@@ -18,6 +19,7 @@
 #include "plumb/render/traceability.hpp"
 #include "plumb/render/trials_json.hpp"
 #include "plumb/render/verdict_section.hpp"
+#include "plumb/render/verification_field.hpp"
 #include "tool.hpp"
 #include "verify_inputs.hpp"
 #include "verify_reuse.hpp"
@@ -67,7 +69,7 @@ io::FileExpected<render::CalibrationPart> calibration_of(const VerifyOptions& op
 /// One campaign; `reason` says why it was not played where it could not be.
 io::FileExpected<std::optional<verification::Trials>> play(const std::string& text, const char* what, int threads,
                                                            std::string& reason) {
-  const io::FileExpected<campaign::CampaignFile> file = campaign::parse_campaign_text(text, what);
+  const io::FileExpected<campaign::CampaignFile> file = campaign::parse_campaign_text(text, what, geomagnetic::lookup);
   if (!file) {
     reason = file.error().text();
     return std::optional<verification::Trials>();
@@ -93,8 +95,9 @@ io::FileExpected<void> play_campaigns(const VerifyOptions& options, const verifi
         "the array file has mode = \"paper\"; campaigns run plumb's own monitor only";
     return {};
   }
-  out.faults_toml = verification::fault_campaign(out.array, kArrayCopy, settings);
-  out.healthy_toml = verification::healthy_campaign(out.array, kArrayCopy, settings);
+  const std::string copy = kArrayCopy + (out.array.group.empty() ? "" : "#" + out.array.group);
+  out.faults_toml = verification::fault_campaign(out.array, copy, settings);
+  out.healthy_toml = verification::healthy_campaign(out.array, copy, settings);
   auto healthy = play(verification::healthy_campaign(out.array, options.array, settings), "campaign without faults",
                       threads, facts.healthy.reason);
   if (!healthy) return tl::unexpected<io::FileError>(healthy.error());
@@ -250,13 +253,15 @@ io::FileExpected<Verification> verify(const VerifyOptions& options) {
                                    {"scenarios", scenarios},
                                    {"command", command_of(options, scenarios)}});
   report["verdict"] = render::verdict_section(out.verdict);
+  out.told = render::verification_in_field(report, out.array.field);
   report["change"] = inputs->before
-                         ? render::change_section(*inputs->before, report)
+                         ? render::change_section(*inputs->before, out.told)
                          : io::object({{"given", false}, {"how", "--compare report.json of an earlier run"}});
   report["run"] = io::object(
       {{"threads", threads},
        {"seconds", seconds_since(start)},
        {"monitor_step", render::step_times_json(out.replayed ? out.replayed->step_ns : std::vector<std::int64_t>())}});
+  for (const char* const section : {"change", "run"}) out.told[section] = report[section];
   return out;
 }
 

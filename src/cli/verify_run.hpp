@@ -39,7 +39,8 @@ inline constexpr std::uint64_t kReplayed = 200;
 /// All that is known when everything has been played, and what has to be written beside the report.
 struct Verification {
   io::ArrayFile array;
-  Json report;
+  Json report;        ///< as of accelerometers, whatever the sensors measure: what pages are made of
+  Json told;          ///< the master report, in the units and the words of the field
   Json traceability;  ///< as it was read
   render::GeometryPictures geometry;
   findings::SizeTable sizes;

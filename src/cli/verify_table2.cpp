@@ -20,6 +20,7 @@ Json not_given(const std::string& reason) { return io::object({{"given", false},
 
 /// Why the experiments cannot be played with this array; empty where they can.
 std::string difference(const io::ArrayFile& array) {
+  if (array.field != io::FieldKind::gravity) return "the experiments are of accelerometers";
   AxisList axes{};
   const int n = paper_tetrahedron(axes);
   if (array.array.size() != n) return "the array is not the paper's tetrahedron";

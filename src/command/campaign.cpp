@@ -13,6 +13,7 @@
 #include "plumb/campaign/replay.hpp"
 #include "plumb/campaign/result_file.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/geomagnetic/field_reference.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/printable.hpp"
 #include "plumb/io/scenario_file.hpp"
@@ -44,7 +45,8 @@ constexpr const char* kNotes =
     "A scenario in which a healthy sensor is excluded, or in which the output misleads, is simplified as far as\n"
     "possible, saved as a scenario file beside the result (the first three of each kind), and printed with the "
     "command\n"
-    "that runs it again. Ctrl-C ends the current batch and writes the result so far, exit code 1. Where the file's\n"
+    "that runs it again (of magnetometers: printed as it was drawn, with its number). Ctrl-C ends the current batch "
+    "and writes the result so far, exit code 1. Where the file's\n"
     "[expect] is not met, exit code 6. docs/campaign.md lists the keys of the file.\n\n";
 
 constexpr int kCasesShown = 3;
@@ -119,6 +121,11 @@ io::FileExpected<std::string> save_cases(const CampaignOptions& options, const C
   for (int k = 0; k < kCasesShown; ++k) {
     const std::uint64_t number = numbers[static_cast<std::size_t>(k)];
     if (number == campaign::kNoNumber) break;
+    if (file.plan.magnetic) {  // a scenario file has no way to say where the field points in the tool
+      told += fmt::format("{} in scenario {}: {}\n  plumb campaign {} --replay {}\n", to_string(what), number,
+                          campaign::sentence_of(file.plan, campaign::spec_of(file.plan, number)), options.file, number);
+      continue;
+    }
     const Spec small = campaign::shrunk(file.plan, **kernel, campaign::spec_of(file.plan, number), what);
     const std::string path = case_path(options, number);
     const io::FileExpected<void> written = io::write_file(path, campaign::case_text(file.plan, small));
@@ -280,7 +287,7 @@ void add_campaign_options(const Options& command, CampaignOptions& options) {
 io::ExitCode run_campaign(const CampaignOptions& options, campaign::Ranks& ranks) {
   const bool first = ranks.rank() == 0;
   const auto refuse = [first](const io::FileError& error) { return first ? command::report(error) : error.code; };
-  io::FileExpected<CampaignFile> file = campaign::read_campaign(options.file);
+  io::FileExpected<CampaignFile> file = campaign::read_campaign(options.file, geomagnetic::lookup);
   if (!file) return refuse(file.error());
   if (options.seed) file->plan.seed = *options.seed;
   if (options.scenarios) file->plan.scenarios = *options.scenarios;

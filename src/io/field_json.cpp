@@ -51,6 +51,7 @@ Json of_magnetic(const Json& value) {  // NOLINT(misc-no-recursion) as deep as t
   for (const auto& [old, one] : value.items()) {
     std::string key = old;
     if (const std::size_t at = key.find("gravity"); at != std::string::npos) key.replace(at, 7, "field");
+    if (const std::size_t at = key.find("acceleration"); at != std::string::npos) key.replace(at, 12, "disturbance");
     double factor = 0.0;
     if (key == kUsualStability) key = "stability_7_85_nt";
     for (const Suffix& suffix : kMagnetic) {

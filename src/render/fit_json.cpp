@@ -225,9 +225,7 @@ Json attitudes_json(const findings::CalibrationRun& run, const io::ArrayFile& ar
                      {"record_next", std::move(next)}});
 }
 
-}  // namespace
-
-std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& array) {
+Json fit_of(const findings::CalibrationRun& run, const io::ArrayFile& array) {
   Json out;
   out["array"] = array.name;
   out["gravity_mps2"] = array.gravity.g_mps2;
@@ -277,7 +275,17 @@ std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& a
   if (array.field == io::FieldKind::gravity) out["paper_parameters"] = paper_parameters_json(run, array);
   if (run.paper) out["paper"] = paper_fits_json(*run.paper, array);
   out["attitudes"] = attitudes_json(run, array);
-  return io::in_field_units(out, array.field).dump(2) + "\n";
+  return out;
+}
+
+}  // namespace
+
+std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& array) {
+  return io::in_field_units(fit_of(run, array), array.field).dump(2) + "\n";
+}
+
+std::string fit_document(const findings::CalibrationRun& run, const io::ArrayFile& array) {
+  return fit_of(run, array).dump();
 }
 
 }  // namespace render

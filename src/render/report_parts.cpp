@@ -106,14 +106,61 @@ void put_housing(const findings::WiringCheck& check, const io::ArrayFile& array,
   out.section["alignment"] = alignment_json(array, alignment);
 }
 
+/// The least angle of the field to the horizon at which a mirror image of the magnetometers would not keep it.
+constexpr double kLeastDip_rad = 0.1;
+
+/// Of magnetometers. No attitude tells how the field lies in the tool; that the accelerometers, beside which they were
+/// aligned by the dip, show the same turns excludes every wiring that turns or mirrors all axes.
+void put_magnetic_housing(const io::ArrayFile& array, const Calibration* calibration, const io::CalibrationFile* file,
+                          CalibrationPart& out) {
+  using State = verification::WiringFacts::State;
+  const findings::WiringCheck check = findings::check_wiring(array, nullptr, {});
+  const bool aligned = file != nullptr && file->alignment.has_value();
+  const bool steep = std::fabs(array.magnetic.dip_rad) > kLeastDip_rad;
+  const std::string remedy =
+      "calibrate with --align-by, the calibration of the accelerometers, which ties the axes to theirs by the dip";
+  std::string text;
+  if (aligned && steep) {
+    out.wiring = {State::confirmed, "confirmed by the accelerometers, to which the axes are aligned", ""};
+    text = "the axes are aligned to the accelerometers by the dip, which excludes the " +
+           std::to_string(check.unseen.size()) +
+           " other wirings that leave the same residuals, if the accelerometers are wired as stated";
+  } else {
+    text = wiring_reason(check, array) + "; " +
+           (aligned ? "the field is so nearly level that the dip does not exclude a mirror image of the axes" : remedy);
+    out.wiring = {State::open, wiring_found(check), text};
+  }
+  Json wiring = wiring_json(check, array);
+  if (aligned && steep) {
+    wiring["status"] = "confirmed";
+    wiring["not_excluded"] = Json::array();
+  }
+  wiring["attitude_to_record"] = Json();
+  wiring["text"] = text;
+  out.section["wiring"] = std::move(wiring);
+  const findings::Alignment alignment =
+      file != nullptr ? findings::alignment_of(array, file) : findings::alignment_of(array, calibration, {});
+  const bool known = alignment.bound_rad < kPi;
+  out.alignment = {array.monitor.alert_frame == AlertFrame::housing,
+                   known ? std::optional<double>(deg_from_rad(alignment.bound_rad)) : std::nullopt,
+                   alignment_words(alignment),
+                   "calibrate with --align-by, or state alignment_bound in [group.monitor]; alert_frame = "
+                   "\"calibrated-axes\" asks for bounds without the housing"};
+  out.section["alignment"] = alignment_json(array, alignment);
+}
+
 /// Of a fit that was made here.
 CalibrationPart part_of(session::CalibrationRun run, const io::ArrayFile& array, const char* mode) {
   const Refusal refusal = run.accepted ? Refusal{} : render::refusal_of(run, array);
   CalibrationPart out = part_with({run.accepted != nullptr, mode, refusal.reason, ""});
   if (!run.accepted) out.section["remedy"] = refusal.next;
-  put_housing(run.study.shown ? run.wiring : findings::check_wiring(array, nullptr, {}), array, run.study.shown.get(),
-              out);
-  out.section["fit"] = io::parsed(fit_json(run, array));
+  if (array.field == io::FieldKind::magnetic) {
+    put_magnetic_housing(array, run.study.shown.get(), nullptr, out);
+  } else {
+    put_housing(run.study.shown ? run.wiring : findings::check_wiring(array, nullptr, {}), array, run.study.shown.get(),
+                out);
+  }
+  out.section["fit"] = io::parsed(fit_document(run, array));
   out.section["trace"] = trace_of(run, array);
   if (run.accepted) {
     out.section["sensors"] = sensors_of(*run.accepted);
@@ -200,7 +247,11 @@ io::FileExpected<CalibrationPart> calibration_of_file(const std::string& path, c
                                       {"made_by", file->context.plumb_version}});
   }
   out.section["sensors"] = sensors_of(file->calibration);
-  put_housing(*wiring, array, &file->calibration, out);
+  if (array.field == io::FieldKind::magnetic) {
+    put_magnetic_housing(array, &file->calibration, &*file, out);
+  } else {
+    put_housing(*wiring, array, &file->calibration, out);
+  }
   if (!out.facts.taken_for_exact.empty()) out.section["taken_for_exact"] = out.facts.taken_for_exact;
   out.e_cal_mps2 = worst_of(file->calibration);
   out.visited = file->context.down;
@@ -269,14 +320,18 @@ findings::GeometrySubject subject_of(const io::ArrayFile& array, const Calibrati
 
 Json array_section(const findings::GeometrySubject& subject, const findings::GeometryStudy& study) {
   Json out = geometry_document(subject, study);
+  const bool magnetic = subject.field() == io::FieldKind::magnetic;
+  const double per_g0 = magnetic ? kG0_mps2 * io::units_of(subject.field()).coarse_per_inside : 1.0;
+  const auto size = [per_g0](double of_g0) { return std::isfinite(of_g0) ? Json(per_g0 * of_g0) : Json(); };
   Json map = Json::array();
   for (const findings::AttitudePoint& p : study.map)
-    map.push_back({p.inclination_deg, p.toolface_deg,
-                   std::isfinite(p.guaranteed_above_g0) ? Json(p.guaranteed_above_g0) : Json(),
-                   std::isfinite(p.nearest_mirror_g0) ? Json(p.nearest_mirror_g0) : Json(), p.not_guaranteed_sensors});
-  out["attitude_map"] = io::object({{"columns", io::texts({"inclination_deg", "toolface_deg", "guaranteed_above_g0",
-                                                           "nearest_mirror_g0", "not_guaranteed_sensors"})},
-                                    {"rows", std::move(map)}});
+    map.push_back({p.inclination_deg, p.toolface_deg, size(p.guaranteed_above_g0), size(p.nearest_mirror_g0),
+                   p.not_guaranteed_sensors});
+  out["attitude_map"] = io::object(
+      {{"columns",
+        io::texts({"inclination_deg", "toolface_deg", magnetic ? "guaranteed_above_ut" : "guaranteed_above_g0",
+                   magnetic ? "nearest_mirror_ut" : "nearest_mirror_g0", "not_guaranteed_sensors"})},
+       {"rows", std::move(map)}});
   return out;
 }
 
@@ -289,6 +344,7 @@ verification::ArrayFacts array_facts(const findings::GeometrySubject& subject, c
   const double level_rad =
       study.sizes.at[static_cast<std::size_t>(findings::SizeCondition::as_stated)].protection_level_at_rest_rad;
   out.protection_level_deg = known(deg_from_rad(level_rad), level_rad < kPi);
+  out.field = subject.field();
   out.gravity_mps2 = subject.gravity.g_mps2;
   for (int i = 0; i < subject.array.size(); ++i) {
     const double least = study.thresholds.sensor[at(i)].detectable_mps2,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/core/units.hpp"
+#include "field_figures.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/study/proportion.hpp"
 #include "plumb/verification/verdict.hpp"
@@ -13,8 +13,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace verification {
 namespace {
-
-double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 /// A grade counts these: chips, where the array file states them, with the sensors that are on none.
 std::string units_text(const ArrayFacts& array) {
@@ -35,7 +33,9 @@ std::string distrust_of(const Facts& facts) {
       "any output during an alert or with only three sensors in use; several {} that all show the same wrong gravity",
       chips ? "units" : "sensors");
   if (facts.wiring.state != WiringFacts::State::confirmed)
-    out += "; inclination and toolface as a whole: no known attitude confirms the wiring";
+    out += is_magnetic(facts.array.field)
+               ? "; the direction as a whole: nothing ties the wiring to that of the accelerometers"
+               : "; inclination and toolface as a whole: no known attitude confirms the wiring";
   if (facts.calibration.predicted())
     out += "; every figure here, because the tool was not calibrated: they come from a simulated calibration";
   if (facts.calibration.stated())
@@ -60,12 +60,12 @@ Answer how_large(const ArrayFacts& array) {
   const std::optional<double> sure = worst(array, &SensorFacts::sure_isolation_mps2);
   if (!least) return {"How large?", "never", "nothing checks every sensor"};
   return {
-      "How large?", fmt::format("{:.3g} mg0", mg0(*least)),
+      "How large?", fine_words(*least, array.field, 3),
       "minimum detectable bias: constant error of any one sensor that raises an alarm in 999 of 1000 blocks" +
           std::string(array.chips() ? ", one axis of a chip being a sensor here (of orthogonal triads of equal noise "
                                       "a whole chip's error of this length is at least as visible)"
                                     : "") +
-          (sure ? fmt::format("; guaranteed isolation threshold {:.3g} mg0", mg0(*sure))
+          (sure ? "; guaranteed isolation threshold " + fine_words(*sure, array.field, 3)
                 : std::string("; no size of error is sure to be isolated"))};
 }
 

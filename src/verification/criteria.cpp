@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "field_figures.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/scenario/count_text.hpp"
 #include "plumb/study/proportion.hpp"
@@ -12,8 +13,6 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace verification {
 namespace {
-
-double mg0(double mps2) { return 1e3 * g0_from_mps2(mps2); }
 
 /// "3 of 20000, 95 % interval 3.09e-05 to 0.000439".
 std::string rate_words(const Rate& rate) {
@@ -118,9 +117,9 @@ void judge_array(const UserLimits& limits, const Facts& facts, Criteria& out) {
     known = known && sensor.detectable_mps2;
     worst = std::fmax(worst, sensor.detectable_mps2.value_or(0.0));
   }
-  const std::string found = known ? fmt::format("{:.4g} mg0", mg0(worst)) : "not at all";
+  const std::string found = known ? fine_words(worst, facts.array.field, 4) : "not at all";
   out.judge(CriterionId::detectable_fault, known && worst <= *limits.fault_mps2,
-            {fmt::format("at most {:.4g} mg0", mg0(*limits.fault_mps2)), "limits file"}, found,
+            {"at most " + fine_words(*limits.fault_mps2, facts.array.field, 4), "limits file"}, found,
             "a constant error is detected from " + found + " on");
 }
 
@@ -140,16 +139,21 @@ void judge_calibration(const CalibrationFacts& calibration, Criteria& out) {
             "the calibration was refused: " + calibration.reason);
 }
 
-/// Gravity shows no exchange or reversal that amounts to a turn or a mirror image of the array, so that nothing but a
-/// known attitude can close this.
-void judge_wiring(const WiringFacts& wiring, Criteria& out) {
+/// A field shows no exchange or reversal that amounts to a turn or a mirror image of the array, so that nothing but a
+/// known attitude can close this; of magnetometers the accelerometers, to which the dip ties them.
+void judge_wiring(const WiringFacts& wiring, io::FieldKind field, Criteria& out) {
   using State = WiringFacts::State;
   const Result result = wiring.state == State::confirmed ? Result::met
                         : wiring.state == State::open    ? Result::open
                                                          : Result::not_met;
-  out.add(CriterionId::wiring_confirmed, {"a station of known attitude that excludes every other wiring"},
-          wiring.found.empty() ? "no station of known attitude" : wiring.found, result,
-          wiring.state == State::confirmed ? "" : wiring.reason);
+  const bool magnetic = is_magnetic(field);
+  out.add(CriterionId::wiring_confirmed,
+          {magnetic ? "axes aligned to the accelerometers by the dip"
+                    : "a station of known attitude that excludes every other wiring"},
+          !wiring.found.empty() ? wiring.found
+          : magnetic            ? "not aligned"
+                                : "no station of known attitude",
+          result, wiring.state == State::confirmed ? "" : wiring.reason);
 }
 
 /// Seconds within which 95 % of the detected faults raised their alarm; negative where none did.
@@ -268,7 +272,7 @@ std::vector<Criterion> judge_criteria(const UserLimits& limits, const Facts& fac
   Criteria out;
   judge_array(limits, facts, out);
   judge_calibration(facts.calibration, out);
-  judge_wiring(facts.wiring, out);
+  judge_wiring(facts.wiring, facts.array.field, out);
   judge_campaign(limits, facts, out);
   judge_requirements(facts.trace, out);
   judge_results(facts.trace, out);

@@ -42,7 +42,8 @@ UserLimits read(const io::TomlNode& root, const std::string& path, const io::Arr
   const TomlTable top(root, path, "", {"limits"});
   const TomlTable table(table_of(root, path), path, "limits",
                         {"alert_limit", "faults", "false_alarm_rate", "misleading_rate", "wrong_exclusion_rate",
-                         "fault", "detect_within"});
+                         "fault", "detect_within"},
+                        array.field);
   UserLimits out = limits_of(array);
   out.file = path;
   if (const auto alert = positive(table, Quantity::angle, "alert_limit", kPi, "an angle: \"0.25 deg\"")) {
@@ -60,7 +61,9 @@ UserLimits read(const io::TomlNode& root, const std::string& path, const io::Arr
       positive(table, Quantity::ratio, "false_alarm_rate", 1.0, "alarms of a healthy tool per block: 1e-3");
   out.misleading_rate = positive(table, Quantity::ratio, "misleading_rate", 1.0, "share of scenarios: 1e-3");
   out.wrong_exclusion_rate = positive(table, Quantity::ratio, "wrong_exclusion_rate", 1.0, "share of scenarios: 1e-3");
-  out.fault_mps2 = positive(table, Quantity::acceleration, "fault", 100.0, "an acceleration: \"5 mg0\"");
+  out.fault_mps2 = positive(
+      table, Quantity::acceleration, "fault", 100.0,
+      array.field == io::FieldKind::magnetic ? "an error of a reading: \"500 nT\"" : "an acceleration: \"5 mg0\"");
   out.detect_within_s = positive(table, Quantity::time, "detect_within", 1e9, "a time: \"2 s\"");
   return out;
 }

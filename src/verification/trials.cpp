@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <regex>
 #include <thread>
 
 #include "plumb/array/geometry.hpp"
@@ -39,8 +40,30 @@ std::string toml_text(const std::string& text) {
   return out + "\"";
 }
 
+/// A length or an error of the vector as the campaign file takes it; no digit is lost.
+std::string vector_toml(double inside, io::FieldKind field) {
+  const io::FieldUnits& units = io::units_of(field);
+  return "\"" + shortest(units.coarse_per_inside * inside) + " " + units.coarse + "\"";
+}
+
+/// The sizes of faults of accelerometers; of magnetometers the same parts of their field: 50mg0 is a twentieth of it.
+std::string in_parts_of_field(const std::string& faults, const io::ArrayFile& array) {
+  if (array.field == io::FieldKind::gravity) return faults;
+  static const std::regex size("([0-9]+(?:[.][0-9]+)?)(m?)g0");
+  const double field_ut = io::units_of(array.field).coarse_per_inside * array.gravity.g_mps2;
+  std::string out;
+  auto at = faults.cbegin();
+  for (std::sregex_iterator it(faults.begin(), faults.end(), size), end; it != end; ++it) {
+    out.append(at, faults.cbegin() + it->position());
+    const double parts = std::stod((*it)[1].str()) * ((*it)[2].length() > 0 ? 1e-3 : 1.0);
+    out += fmt::format("{:.7g}uT", parts * field_ut);
+    at = faults.cbegin() + it->position() + it->length();
+  }
+  return out.append(at, faults.cend());
+}
+
 /// The monitor of the array file, its alert limit apart: what differs from the defaults.
-std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad) {
+std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad, io::FieldKind field) {
   const MonitorConfig usual;
   std::string out = "\n[monitor]\n";
   const auto number = [&out](const char* key, auto value, auto standard) {
@@ -52,9 +75,12 @@ std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad) {
   const auto quantity = [&out](const char* key, double value, double standard, const char* unit) {
     if (value != standard) out += std::string(key) + " = \"" + shortest(value) + " " + unit + "\"\n";
   };
+  const auto vector = [&out, field](const char* key, double value, double standard) {
+    if (value != standard) out += std::string(key) + " = " + vector_toml(value, field) + "\n";
+  };
   out += "alert_limit = \"" + shortest(alert_limit_rad) + " rad\"\n";
   number("window", config.window, usual.window);
-  quantity("delta_f", config.delta_f_mps2, usual.delta_f_mps2, "m/s^2");
+  vector("delta_f", config.delta_f_mps2, usual.delta_f_mps2);
   ratio("false_alarm_rate", config.false_alarm_rate, usual.false_alarm_rate);
   ratio("rejection_rate", config.rejection_rate, usual.rejection_rate);
   number("assumed_faults", config.assumed_faults, usual.assumed_faults);
@@ -77,7 +103,8 @@ std::string monitor_toml(const MonitorConfig& config, double alert_limit_rad) {
   quantity("temperature_max", config.temperature_max_degc, usual.temperature_max_degc, "degC");
   if (config.recalibrate_after_exclusion) out += "recalibrate = \"after-exclusion\"\n";
   number("isolation_timeout_blocks", config.isolation_timeout_blocks, usual.isolation_timeout_blocks);
-  quantity("acceleration_bound", config.acceleration_bound_mps2, usual.acceleration_bound_mps2, "m/s^2");
+  vector(field == io::FieldKind::magnetic ? "disturbance_bound" : "acceleration_bound", config.acceleration_bound_mps2,
+         usual.acceleration_bound_mps2);
   out += "alert_frame = \"calibrated-axes\"  # that in which a scenario knows the truth\n";
   if (config.alarm_form == AlarmForm::average_tool) out += "alarm_form = \"average-tool\"\n";
   ratio("triple_false_alarm_rate", config.triple_false_alarm_rate, usual.triple_false_alarm_rate);
@@ -101,25 +128,30 @@ std::string common_part(const io::ArrayFile& array, const std::string& array_pat
   const bool promised = confirmed_grade(array.array, array.array.all()) > 0;
   std::string out = "# Written by plumb verify. Play it again in this directory: plumb campaign " + what + ".toml\n";
   out += "name = " + toml_text(array.name + ": " + what) + "\n";
+  if (array.field == io::FieldKind::magnetic) out += "field = \"magnetic\"\n";
   out += fmt::format("scenarios = {}\nseed = {}\nwithin_grade = \"{}\"\n", settings.scenarios, settings.seed,
                      promised ? "yes" : "no");
   out += "\n[[tool]]\narray = " + toml_text(array_path) + "\n";
   const double resolution = resolution_mps2(array);
-  if (resolution > 0.0) out += "resolution = \"" + shortest(resolution) + " m/s^2\"\n";
+  if (resolution > 0.0) out += "resolution = " + vector_toml(resolution, array.field) + "\n";
   if (settings.samples_per_row > 1)
     out += fmt::format("samples_per_row = {}  # a row is a mean\n", settings.samples_per_row);
   const double rate_hz = array.input.rate_hz > 0.0 ? array.input.rate_hz : 100.0;
   out += fmt::format("\n[run]\nstations = {}\nsamples = {}\nrate = \"{} Hz\"\nmove = \"{} s\"\nonset = [1, 3]\n",
                      stations, monitor.window, shortest(rate_hz), shortest(std::fmin(1.0, 0.5 * monitor.max_gap_s)));
-  out += "\n[gravity]\nvalue = \"" + shortest(array.gravity.g_mps2) + " m/s^2\"\nsigma = \"" +
-         shortest(array.gravity.sigma_mps2) + " m/s^2\"\n";
-  out += array.gravity.sigma_mps2 > 0.0 ? "errors = [0, 3]  # true gravity minus the configured value, in sigmas\n"
-                                        : "errors = [0]\n";
+  const bool magnetic = array.field == io::FieldKind::magnetic;
+  out += std::string(magnetic ? "\n[reference]" : "\n[gravity]") +
+         "\nvalue = " + vector_toml(array.gravity.g_mps2, array.field) +
+         "\nsigma = " + vector_toml(array.gravity.sigma_mps2, array.field) + "\n";
+  out += !(array.gravity.sigma_mps2 > 0.0) ? "errors = [0]\n"
+         : magnetic                        ? "errors = [0, 3]  # true field minus the configured value, in sigmas\n"
+                                           : "errors = [0, 3]  # true gravity minus the configured value, in sigmas\n";
   // `left` is of the bias; with scale and axis, twice as large each, a reading is off by sqrt(5) of it.
   if (settings.e_cal_mps2 > 0.0 || settings.days_since_calibration > 0.0) out += "\n[calibration]\n";
-  if (settings.e_cal_mps2 > 0.0) out += "left = \"" + shortest(settings.e_cal_mps2 / std::sqrt(5.0)) + " m/s^2\"\n";
+  if (settings.e_cal_mps2 > 0.0)
+    out += "left = " + vector_toml(settings.e_cal_mps2 / std::sqrt(5.0), array.field) + "\n";
   if (settings.days_since_calibration > 0.0) out += "days = " + shortest(settings.days_since_calibration) + "\n";
-  out += monitor_toml(monitor, settings.alert_limit_rad);
+  out += monitor_toml(monitor, settings.alert_limit_rad, array.field);
   out +=
       "\n[[attitude]]\nlaw = \"random\"\n[[attitude]]\nlaw = \"roll-test\"\ninclination = \"60 deg\"\n[[attitude]]\n"
       "law = \"drilling-path\"\n";
@@ -180,7 +212,7 @@ void play_slices(const campaign::Plan& plan, Worker& worker, std::atomic<std::ui
 }  // namespace
 
 std::string fault_campaign(const io::ArrayFile& array, const std::string& array_path, const TrialSettings& settings) {
-  std::string out = common_part(array, array_path, settings, "faults", kFaultStations);
+  std::string out;
   const int grade = confirmed_grade(array.array, array.array.all());
   const int most = std::min(std::max(grade, 1), std::max(settings.faults, 1));
   std::string sensors;
@@ -205,11 +237,13 @@ std::string fault_campaign(const io::ArrayFile& array, const std::string& array_
         "bias_mdb = [0.5, 1, 2, 10, 100, {from = 0.25, to = 64}]\n"
         "sensors = [" +
         sensors + "]\n";
-  return out +
-         "[[fault]]  # correlated faults: all faulty sensors show the same rotated gravity\n"
+  out += "[[fault]]  # correlated faults: all faulty sensors show the same rotated " +
+         std::string(array.field == io::FieldKind::magnetic ? "field" : "gravity") +
+         "\n"
          "spec = [\"ghost=20deg*0deg\"]\n"
          "sensors = [" +
          sensors + "]\n";
+  return common_part(array, array_path, settings, "faults", kFaultStations) + in_parts_of_field(out, array);
 }
 
 std::string healthy_campaign(const io::ArrayFile& array, const std::string& array_path, const TrialSettings& settings) {
@@ -247,7 +281,8 @@ tl::expected<Trials, std::string> play_trials(const campaign::CampaignFile& file
 std::string trials_csv(const Trials& trials) {
   const campaign::Plan& plan = trials.file.plan;
   std::string out =
-      "number,attitude,fault,faulty_sensors,gravity_sigmas,size_mdb,faulty_bits,excluded_bits,ever_excluded_bits,"
+      std::string("number,attitude,fault,faulty_sensors,") + (plan.magnetic ? "field" : "gravity") +
+      "_sigmas,size_mdb,faulty_bits,excluded_bits,ever_excluded_bits,"
       "ever_provisionally_excluded_bits,blocks,first_fault_block,alarm_block,isolated_block,failed,misleading,beyond_"
       "protection,"
       "tilt_before_alarm_deg,tilt_usable_deg\n";

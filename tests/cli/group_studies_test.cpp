@@ -316,7 +316,6 @@ TEST(GroupStudies, WhatServesNoGroupSaysWhatDoes) {
     std::vector<std::string> arguments;
     const char* says;
   } cases[] = {
-      {{"verify", "--array", "six_axis.toml#mag", "--out", "report"}, "plumb geometry 'six_axis.toml#mag' has"},
       {{"verify", "--array", "six_axis.toml#gyros", "--out", "report"}, "plumb monitor --group"},
       {{"simulate", "--flight", "drone", "six_axis.toml#gyros", "--out", "f.csv"}, "write a scenario with array = "},
   };

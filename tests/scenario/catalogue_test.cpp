@@ -184,7 +184,7 @@ TEST(Catalogue, RowsByHandNameTestsThatExist) {
       EXPECT_NE(inventory.find("\n" + (*found)[1].str() + "\n"), std::string::npos) << (*found)[1].str();
     rows += row ? 1 : 0;
   }
-  EXPECT_EQ(rows, 17);
+  EXPECT_EQ(rows, 21);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "plumb/campaign/plan.hpp"
 #include "plumb/campaign/tally.hpp"
+#include "plumb/io/field.hpp"
 #include "plumb/io/file_error.hpp"
 
 namespace plumb {
@@ -24,10 +25,12 @@ struct CampaignFile {
   std::vector<Expectation> expect;
 };
 
-/// Refuses, with file, line, field and remedy, all that cannot be played.
-io::FileExpected<CampaignFile> read_campaign(const std::string& path);
+/// Refuses, with file, line, field and remedy, all that cannot be played. `lookup` answers where a group of an array
+/// file states a place and a date; without one such a group is refused.
+io::FileExpected<CampaignFile> read_campaign(const std::string& path, const io::FieldLookup& lookup = {});
 /// The same from text; `path` is used in messages.
-io::FileExpected<CampaignFile> parse_campaign_text(const std::string& text, const std::string& path);
+io::FileExpected<CampaignFile> parse_campaign_text(const std::string& text, const std::string& path,
+                                                   const io::FieldLookup& lookup = {});
 
 /// Of everything in the plan that decides about a result, seed and number of scenarios included.
 std::uint64_t hash_of(const Plan& plan);

@@ -72,6 +72,8 @@ enum class Start : std::uint8_t {
 
 struct Plan {
   std::string name;
+  /// The sensors are magnetometers: what is in m/s^2 here, gravity among it, is their field in units of 4 uT.
+  bool magnetic = false;
   std::uint64_t seed = 1;
   std::uint64_t scenarios = 0;
   bool sweep = true;  ///< cell = number modulo cells; else drawn

@@ -12,7 +12,7 @@ inline namespace PLUMB_ABI {
 namespace io {
 
 /// Keys that end in _mps2, _per_mps2, _mps2_2, _mps2_per_h or _per_g0 take the field's unit, and their numbers with
-/// them; "gravity" in a key becomes "field".
+/// them; "gravity" in a key becomes "field", "acceleration" "disturbance".
 Json in_field_units(const Json& value, FieldKind field);
 /// The same of one line of JSON.
 std::string in_field_units(const std::string& line, FieldKind field);

@@ -26,6 +26,8 @@ struct ReportParts {
 };
 std::string fit_text(const findings::CalibrationRun& run, const io::ArrayFile& array, const ReportParts& parts = {});
 std::string fit_json(const findings::CalibrationRun& run, const io::ArrayFile& array);
+/// The same with the field of a magnetic group at the size of gravity, under the keys of gravity.
+std::string fit_document(const findings::CalibrationRun& run, const io::ArrayFile& array);
 
 }  // namespace render
 }  // namespace PLUMB_ABI

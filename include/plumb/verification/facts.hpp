@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/core/config.hpp"
+#include "plumb/io/field.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -30,6 +31,7 @@ struct Note {
 };
 
 struct ArrayFacts {
+  io::FieldKind field = io::FieldKind::gravity;  ///< gravity or magnetic: then "mps2" is in units of 4 uT
   int confirmed_grade = 0, provisional_grade = 0;
   int units = 0;                               ///< what these count: chips where they are stated, else sensors
   std::optional<double> protection_level_deg;  ///< nothing where parity does not check every sensor

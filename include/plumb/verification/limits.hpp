@@ -17,7 +17,8 @@ struct UserLimits {
   std::string alert_limit_from;  ///< where that stands: a file, or "default"
   int faults = 1;                ///< sensors at fault at once that have to be isolated
   std::string faults_from;
-  double acceleration_bound_mps2 = 0.0;        ///< of the array file: 0 = a standstill is assumed
+  /// Of the array file: 0 = a standstill is assumed. Of magnetometers its disturbance_bound.
+  double acceleration_bound_mps2 = 0.0;
   double acceleration_turn_rad = 0.0;          ///< most that it turns what the sensors feel
   std::string drift;                           ///< what of it the limits allow for; empty: not given
   std::optional<double> false_alarm_rate;      ///< per block

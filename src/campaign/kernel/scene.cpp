@@ -118,7 +118,8 @@ Expected<MonitorSetup> setup_of(const Plan& plan, int tool) noexcept {
   MonitorSetup setup;
   setup.array = *array;
   setup.model = datasheet.model();
-  setup.gravity = {plan.gravity_mps2, plan.gravity_sigma_mps2, GravityModel::value};
+  setup.gravity = {plan.gravity_mps2, plan.gravity_sigma_mps2,
+                   plan.magnetic ? GravityModel::magnetic : GravityModel::value};
   ArchiveReader reader(plan.monitor.data(), plan.monitor.size(), datasheet.size);
   reader.get(setup.config);
   if (!reader.sound()) return fail(Errc::out_of_range, 1, plan.window, kWindowCapacity);
