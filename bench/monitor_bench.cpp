@@ -10,6 +10,7 @@
 #include "bench_array.hpp"
 #include "pairs.hpp"
 #include "plumb/health/health_monitor.hpp"
+#include "px4_voter.hpp"
 
 namespace {
 
@@ -124,5 +125,35 @@ const plumb_bench::Enrolled kStep{
      : kCapacity == 8 ? 1.0 / 0.6
                       : 0.0,
      contest}};
+
+/// One of so many sensors as one unit of three axes: what both are asked in a sample, and what each says, differs.
+plumb_bench::Contest contest_with_px4() {
+  const auto watched = std::make_shared<Watched>(kCapacity);
+  if (!watched->sound) return {};
+  const std::vector<Sample> stream = quiet_stream(array_of(kCapacity), 1 << 12);
+  const auto readings = std::make_shared<std::vector<plumb_bench::Px4Reading>>();
+  for (const Sample& s : stream) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kCapacity); ++i) {
+      const auto y = static_cast<float>(s.raw[i]);
+      readings->push_back({{y, 0.5F * y, 0.25F * y}, 0});
+    }
+  }
+  const auto units = std::make_shared<plumb_bench::Px4Units>(static_cast<std::size_t>(kCapacity));
+  const auto time_us = std::make_shared<std::uint64_t>(0);
+  return {[watched](std::size_t count) {
+            for (std::size_t k = 0; k < count; ++k) watched->step();
+          },
+          [readings, units, time_us](std::size_t count) {
+            const std::size_t rows = readings->size() / static_cast<std::size_t>(kCapacity);
+            for (std::size_t k = 0; k < count; ++k) {
+              *time_us += 1000;
+              const auto* const row = readings->data() + (k % rows) * static_cast<std::size_t>(kCapacity);
+              benchmark::DoNotOptimize(units->step(*time_us, row));
+            }
+          }};
+}
+const plumb_bench::Enrolled kStepBesidePx4{
+    {"step in nominal, " + std::string(kCapacity < 10 ? " " : "") + std::to_string(kCapacity) + " sensors",
+     "PX4's voter, " + std::to_string(kCapacity) + " units of three axes", 0.0, contest_with_px4}};
 
 }  // namespace
