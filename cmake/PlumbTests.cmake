@@ -346,6 +346,7 @@ if(TARGET plumb_tool)
     LONGER Stepper.*)
   add_dependencies(plumb_stepper_tests plumb_tool)
   target_compile_definitions(plumb_stepper_tests PRIVATE PLUMB_TOOL_PATH="$<TARGET_FILE:plumb_tool>")
+  target_include_directories(plumb_stepper_tests PRIVATE "${PROJECT_SOURCE_DIR}/src")  # what is private to the room
 endif()
 
 # The model's states counted without the model checker, and its table against the tool's.

@@ -96,7 +96,7 @@ void RateMonitor::forget() noexcept {
 
 /// A healthy axis reads its bias, what the tool turns by, and noise. That one reads more is no fault of it while one
 /// rate explains all axes: the host may be wrong about rest, above all where the tool turns about the vertical, which
-/// no accelerometer feels. So rest only decides between those whom parity suspects (docs/theory.md, T15).
+/// no accelerometer feels. So rest only decides between those whom parity suspects (docs/theory.md, T17).
 void RateMonitor::judge_rest() noexcept {
   SensorSet off;
   const double n = rest_.samples;

@@ -58,7 +58,7 @@ std::string in_ut() {
 void expect_same_outcomes(const CampaignFile& a, const CampaignFile& b) {
   ASSERT_EQ(a.plan.cells.size(), b.plan.cells.size());
   const auto of_a = kernel_of(a.plan), of_b = kernel_of(b.plan);
-  const auto one = std::make_unique<Outcome>(), two = std::make_unique<Outcome>();
+  const auto one = std::make_unique<plumb::campaign::Outcome>(), two = std::make_unique<plumb::campaign::Outcome>();
   int alarms = 0, excluded = 0;
   for (std::uint64_t number = 0; number < a.plan.scenarios; ++number) {
     of_a->play(spec_of(a.plan, number), *one);

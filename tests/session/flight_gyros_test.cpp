@@ -1,5 +1,5 @@
 // The gyros of a group in a simulated flight: within the bounds that the file states, and the rate of motion by them.
-#include "flight_gyros.hpp"
+#include "session/flight_gyros.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
