@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 
+#include "plumb/core/circle_point.hpp"
 #include "plumb/core/detail/numbers.hpp"
 #include "plumb/core/units.hpp"
 
@@ -17,8 +18,8 @@ namespace {
 /// n axes at equal azimuths, the first above x, with the given cosine and sine of the half angle.
 void fill_cone(AxisList& axes, int n, double cosine, double sine) noexcept {
   for (int k = 0; k < n; ++k) {
-    const double azimuth = 2.0 * kPi * k / n;
-    axes[at(k)] = {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
+    const CirclePoint around = circle_point(2.0 * kPi * k / n);
+    axes[at(k)] = {sine * around.cosine, sine * around.sine, cosine};
   }
 }
 
@@ -66,11 +67,12 @@ int orthogonal_triad(AxisList& axes) noexcept {
 }
 
 int cone(AxisList& axes, int n, double half_angle_rad) noexcept {
-  if (n < 3 || n > kCapacity || !std::isfinite(half_angle_rad)) return 0;
+  if (n < 3 || n > kCapacity || !std::isfinite(half_angle_rad) || half_angle_rad > kPi) return 0;
   if (half_angle_rad <= 0.0) {
     fill_cone(axes, n, std::sqrt(1.0 / 3.0), std::sqrt(2.0 / 3.0));
   } else {
-    fill_cone(axes, n, std::cos(half_angle_rad), std::sin(half_angle_rad));
+    const CirclePoint half = circle_point(half_angle_rad);
+    fill_cone(axes, n, half.cosine, half.sine);
   }
   return n;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fit_report.hpp"
+#include "plumb/numeric/hypotenuse.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -101,7 +102,7 @@ CommonTurn common_turn(const Datasheet& datasheet, const Vec3& roll_axis, const 
   const double determinant = a * c - b * b;
   if (!(determinant > 0.0)) return out;  // axes that lie along one line know nothing of it
   const double x = dot(common, first), y = dot(common, second);
-  out.rad = std::hypot(x, y);
+  out.rad = hypotenuse(x, y);
   const double squared_sigmas = (c * x * x - 2.0 * b * x * y + a * y * y) / determinant;
   out.sigma_rad = squared_sigmas > 0.0 ? out.rad / std::sqrt(squared_sigmas) : std::sqrt(0.5 * (a + c));
   out.sensor = lone_axis(turns, roll_axis, common);

@@ -6,6 +6,7 @@
 #include "fit_internal.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/numeric/cholesky.hpp"
+#include "plumb/numeric/hypotenuse.hpp"
 #include "station_solver.hpp"
 
 namespace plumb {
@@ -150,7 +151,7 @@ Coverage coverage_of(const Datasheet& datasheet, const SeenAttitude* attitudes, 
   for (int k = 0; k < count && attitudes != nullptr; ++k) {
     const Vec3& u = attitudes[k].direction;
     if (!(std::fabs(norm(u) - 1.0) < 1e-6)) continue;
-    const double inclination_rad = std::atan2(std::hypot(u[0], u[1]), u[2]);
+    const double inclination_rad = std::atan2(hypotenuse(u[0], u[1]), u[2]);
     if (out.attitudes == 0 || inclination_rad < out.inclination_min_rad) out.inclination_min_rad = inclination_rad;
     if (out.attitudes == 0 || inclination_rad > out.inclination_max_rad) out.inclination_max_rad = inclination_rad;
     seen[at(static_cast<int>(std::lround(inclination_rad / kPi * (kInclinationBins - 1))))] = true;

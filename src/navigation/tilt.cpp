@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "plumb/numeric/hypotenuse.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -26,7 +27,7 @@ double inclination_variance(const Vec3& u, double h, const Mat3& c) noexcept {
   }
   // Along the pole every horizontal direction is the gradient of some error: take the worst.
   const double mean = 0.5 * (c[0] + c[4]);
-  return mean + std::hypot(0.5 * (c[0] - c[4]), 0.5 * (c[1] + c[3]));
+  return mean + hypotenuse(0.5 * (c[0] - c[4]), 0.5 * (c[1] + c[3]));
 }
 
 double wrapped(double angle_rad) noexcept {
@@ -51,7 +52,7 @@ Tilt tilt_of(const Vec3& gravity_mps2, const Mat3& covariance, double min_inclin
   Mat3 relative = covariance;
   for (double& c : relative) c = c / largest / largest / length / length;
 
-  const double h = std::hypot(u[0], u[1]);
+  const double h = hypotenuse(u[0], u[1]);
   out.inclination_rad = std::atan2(h, u[2]);
   out.inclination_sigma_rad = bounded_sigma(inclination_variance(u, h, relative));
   out.inclination_valid = true;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "plumb/numeric/hypotenuse.hpp"
+
 namespace plumb {
 inline namespace PLUMB_ABI {
 namespace {
@@ -55,8 +57,8 @@ bool negligible(const View& a, int p, int q) noexcept {
 void rotate(const View& a, const View& v, int n, int p, int q) noexcept {
   const double apq = a(p, q);
   const double theta = 0.5 * (a(q, q) - a(p, p)) / apq;
-  // hypot: theta is huge for a nearly diagonal pair, and its square overflows.
-  const double t = std::copysign(1.0, theta) / (std::fabs(theta) + std::hypot(1.0, theta));
+  // Not a root of 1 + theta^2: theta is huge for a nearly diagonal pair, and its square overflows.
+  const double t = std::copysign(1.0, theta) / (std::fabs(theta) + hypotenuse(1.0, theta));
   const double c = 1.0 / std::sqrt(1.0 + t * t);
   const double s = t * c;
   a(p, p) -= t * apq;

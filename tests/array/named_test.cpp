@@ -71,6 +71,7 @@ TEST(Named, WhatCannotBeBuiltIsZero) {
   EXPECT_EQ(cone(axes, 2), 0);
   EXPECT_EQ(cone(axes, kCapacity + 1), 0);
   EXPECT_EQ(cone(axes, 4, std::numeric_limits<double>::quiet_NaN()), 0);
+  EXPECT_EQ(cone(axes, 4, 1.1 * kPi), 0);
   EXPECT_EQ(cone_with_axis(axes, 3), 0);
   EXPECT_EQ(cone_with_axis(axes, kCapacity + 1), 0);
   EXPECT_EQ(platonic(axes, kCapacity + 1), 0);

@@ -15,7 +15,7 @@ int paper_tetrahedron(AxisList& axes) noexcept;
 /// Orthogonal triad x, y, z.
 int orthogonal_triad(AxisList& axes) noexcept;
 /// n axes on a cone about z. `half_angle_rad` <= 0 picks acos(1/sqrt(3)), for which H'H = n/3 I.
-/// Returns 0 where n < 3 or n > capacity.
+/// Returns 0 where n < 3 or n > capacity, or the half angle is beyond pi.
 int cone(AxisList& axes, int n, double half_angle_rad = 0.0) noexcept;
 /// n-1 axes on a cone and one along z (half angle so that H'H is a multiple of I).
 int cone_with_axis(AxisList& axes, int n) noexcept;
