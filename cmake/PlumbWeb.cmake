@@ -14,7 +14,16 @@ add_test(NAME web.stories COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/stories.
   "${PROJECT_SOURCE_DIR}")
 set_tests_properties(web.stories PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800
   RESOURCE_LOCK explorer_build)  # both build the page in the same folder
+if(TARGET plumb_replay)
+  add_test(NAME web.replay COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/replay.sh" node "$<TARGET_FILE:plumb_replay>"
+    "${PROJECT_SOURCE_DIR}")
+  set_tests_properties(web.replay PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800 RESOURCE_LOCK explorer_build)
+endif()
 if(PLUMB_PYTHON3)
+  add_test(NAME web.replay_browser COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/replay.sh" browser none "${PROJECT_SOURCE_DIR}"
+    "${PLUMB_PYTHON3}")
+  set_tests_properties(web.replay_browser PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800
+    RESOURCE_LOCK explorer_build)
   add_test(NAME web.page COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/page.sh" "$<TARGET_FILE:plumb_web_native>"
     "${PROJECT_SOURCE_DIR}" "${PLUMB_PYTHON3}")
   set_tests_properties(web.page PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800 RESOURCE_LOCK explorer_build)
