@@ -1,6 +1,6 @@
 /// The longest side of a right-angled triangle from the four operations and the root: the same bits from every C
 /// library, where std::hypot differs in its last digit. Within 1 unit in the last place, and the nearest double in 99
-/// of 1000 cases.
+/// of 100 cases.
 #pragma once
 
 #include "plumb/core/config.hpp"
