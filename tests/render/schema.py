@@ -1,5 +1,6 @@
-"""schema.py TOOL SOURCE: what plumb verify writes is what docs/report.schema.json says, what plumb monitor --report writes is what
-docs/health.schema.json says, and damaged copies are not."""
+"""schema.py TOOL SOURCE [--write]: what plumb verify writes is what docs/report.schema.json says, of a magnetic group
+docs/report-magnetic.schema.json, what plumb monitor --report writes is what docs/health.schema.json says, and damaged copies are not.
+The schema of a magnetic group is that of accelerometers in other words and units; --write makes it anew."""
 
 import copy
 import json
@@ -25,6 +26,24 @@ def validator_of(path):
     schema = json.loads(path.read_text())
     jsonschema.Draft7Validator.check_schema(schema)
     return jsonschema.Draft7Validator(schema)
+
+
+MAGNETIC_WORDS = (("mdb_mps2", "mdb_nt"), ("gravity_mps2", "field_nt"), ("stability_0_2_mg0", "stability_7_85_nt"), ("acceleration_mps2", "disturbance_nt"),
+                  ("_mps2", "_nt"), ("unseen_by_gravity", "unseen_by_field"), ("with acceleration 0", "with disturbance 0"),
+                  ("stability and acceleration", "stability and disturbance"), ("stability 0 and 0.2 mg0", "stability 0 and 7.85 nT"),
+                  ("that gravity cannot see", "that the field cannot see"),
+                  ("of accelerometers; that of a magnetic group is report-magnetic.schema.json", "of a magnetic group; that of accelerometers is report.schema.json"),
+                  ("plumb-verification, version 1", "plumb-verification, version 1, of a magnetic group"))
+
+
+def magnetic_schema(text):
+    for gravity, field in MAGNETIC_WORDS:
+        assert gravity in text, gravity
+        text = text.replace(gravity, field)
+    at = text.index('"properties": {', text.index('"subject": {')) + len('"properties": {')
+    required = text.index('"required": [', text.index('"subject": {')) + len('"required": [')
+    assert required < at
+    return text[:required] + '"field", ' + text[required:at] + '"field": {"const": "magnetic"}, ' + text[at:]
 
 
 def judge(validator, reports, breaks):
@@ -77,15 +96,29 @@ def health_reports(tool, source, folder):
     return out
 
 
-def main(tool, source):
+def main(tool, source, write=None):
     source = pathlib.Path(source)
+    published = source / "docs/report-magnetic.schema.json"
+    magnetic = magnetic_schema((source / "docs/report.schema.json").read_text())
+    if write == "--write":
+        published.write_text(magnetic)
+    assert published.read_text() == magnetic, f"{published} is not what docs/report.schema.json makes of it: schema.py TOOL SOURCE --write"
     with tempfile.TemporaryDirectory() as folder:
         first = verified(tool, str(source / "examples/paper_tool.toml"), folder + "/a")
         reports = [first, verified(tool, str(source / "examples/mikoff5_z.toml"), folder + "/b", "--compare", folder + "/a/report.json")]
         triad = (source / "examples/paper_tool.toml").read_text()
         pathlib.Path(folder, "triad.toml").write_text(triad[: triad.rindex("[[sensor]]")])
         reports.append(verified(tool, folder + "/triad.toml", folder + "/c"))
+        fields = [verified(tool, str(source / "examples/six_axis.toml#mag"), folder + "/m")]
         health = health_reports(tool, source, folder)
+    judge(validator_of(published), fields, (
+        lambda r: r["subject"].update(field="rate"),
+        lambda r: r["subject"].pop("field"),
+        lambda r: r["array"].pop("field_nt"),
+        lambda r: r["array"]["detection_sizes"]["as_stated"].update(guaranteed_isolation_mps2=1.0),
+        lambda r: r["array"]["sensors"][0].pop("sigma_nt"),
+    ))
+    assert not validator_of(source / "docs/report.schema.json").is_valid(fields[0])
     judge(validator_of(source / "docs/report.schema.json"), reports, (
         lambda r: r.pop("verdict"),
         lambda r: r["verdict"].update(verdict="splendid"),
@@ -108,7 +141,7 @@ def main(tool, source):
         lambda r: r["identity"]["inputs"][0].update(sha256="0"),
         lambda r: r.update(more=1),
     ))
-    print(f"{len(reports)} verification reports and {len(health)} health reports fit their schemas")
+    print(f"{len(reports) + len(fields)} verification reports and {len(health)} health reports fit their schemas")
 
 
 main(*sys.argv[1:])
