@@ -5,7 +5,7 @@ if(NOT PLUMB_ALL_CAPACITIES OR NOT TARGET plumb_render)
 endif()
 file(GLOB web_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/web/core/*.cpp")
 list(FILTER web_sources EXCLUDE REGEX "/(exports|left_out)\\.cpp$")  # the browser's own
-add_executable(plumb_web_native ${web_sources})
+add_executable(plumb_web_native ${web_sources} "${PROJECT_SOURCE_DIR}/bench/motion/px4_rules.cpp")
 plumb_compile_settings(plumb_web_native)
 plumb_optimise_less(plumb_web_native)
 target_link_libraries(plumb_web_native PRIVATE plumb_render)

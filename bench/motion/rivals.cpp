@@ -1,18 +1,11 @@
 // Written from reading these files; their words and code are not repeated. Commits are those of the copies read.
-//   PX4/PX4-Autopilot
-//     src/modules/sensors/voted_sensors_update.cpp           0d3cf7493b8b8a593f7218c0d1dd2502be040918
-//     src/modules/sensors/data_validator/DataValidator.cpp   f3cb7d30ef084fb402192c21ea8079bda72a9102
-//     src/modules/sensors/data_validator/DataValidator.hpp   033e9cee3625392e07633088a3ebeb245a9f1dd4
-//     src/modules/sensors/vehicle_imu/imu_parameters.yaml    d709b0468b4797508eb2a8bf9c5e9be1958375c7
-//     src/modules/ekf2/EKF2Selector.cpp                      0835c432e34983339899d690c17b4634d02722a2
-//     src/modules/ekf2/params_selector.yaml                  2e09b28957b85b8387890f381e6ee7040ad7d6ef
 //   ArduPilot/ardupilot
 //     libraries/AP_Arming/AP_Arming.cpp                      073170d77dc8348ed73f4004e9dbf7a2c93230b6
 //     ArduCopter/AP_Arming.cpp                               dd445c3b4e3c4251a10a41c38c814ab19ef1f9b1
 //     libraries/AP_InertialSensor/AP_InertialSensor.cpp      5b049ea0bf3108e7da35fbfe73e766d8cfd74a76
 //     libraries/AP_NavEKF3/AP_NavEKF3_Outputs.cpp            971f76c0f1a141188e17b6eaedbbc2b7fa4481c6
 //     ArduCopter/ekf_check.cpp                               92e0e66054d325b9305f38f91575d55f28d637fd
-// The generalised likelihood test is that of Daly, Gai and Harrison (1979).
+// PX4's rules stand in px4_rules.cpp. The generalised likelihood test is that of Daly, Gai and Harrison (1979).
 #include "rivals.hpp"
 
 #include <algorithm>
@@ -23,6 +16,7 @@
 
 #include "plumb/motion/motion_window.hpp"
 #include "plumb/numeric/tails.hpp"
+#include "px4_rules.hpp"
 
 namespace plumb_bench {
 
@@ -58,68 +52,23 @@ Largest largest_of(const std::array<double, kUnits>& value) {
   return {static_cast<std::size_t>(at - value.begin()), *at};
 }
 
-/// PX4 hands its readings on as velocity gained over 5 ms (IMU_INTEG_RATE), still at the place of each unit.
-class Px4Means {
- public:
-  static constexpr double kPeriod_s = 0.005;
-  bool add(const Units& reading) {
-    if (count_ == kSamples) *this = {};
-    for (std::size_t u = 0; u < kUnits; ++u) mean_[u] = plus(mean_[u], scaled(reading[u], 1.0 / kSamples));
-    return ++count_ == kSamples;
+UnitVectors vectors_of(const Units& all) {
+  UnitVectors out;
+  out.count = kUnits;
+  for (std::size_t u = 0; u < kUnits; ++u) out.vector[u] = all[u];
+  out.delivered = (1U << kUnits) - 1U;
+  return out;
+}
+
+/// Units as a mask of bench/motion/px4_rules.hpp.
+FlightFinding blamed(std::uint32_t units) {
+  FlightFinding out;
+  for (std::size_t u = 0; u < kUnits; ++u) {
+    if ((units >> u & 1U) != 0) out.isolated = out.isolated | sensors_of(u);
   }
-  const Units& mean() const { return mean_; }
-
- private:
-  static constexpr int kSamples = 5;
-  Units mean_{};
-  int count_ = 0;
-};
-
-/// PX4's estimator selector: how far each unit lies from the mean of all, smoothed, is integrated where it exceeds
-/// EKF2_SEL_IMU_ACC. Once an integral exceeds EKF2_SEL_IMU_VEL, the unit with the largest one is at fault. A faulty
-/// unit stays in the mean. The selector's other reasons are innovations against GNSS and barometer.
-class Px4Selector {
- public:
-  FlightFinding step(const Units& reading) {
-    const Vec3 mean = mean_of(reading);
-    for (std::size_t u = 0; u < kUnits; ++u) {
-      smooth_[u] = plus(scaled(smooth_[u], 0.95), scaled(minus(reading[u], mean), 0.05));
-      excess_mps_[u] = std::max(0.0, excess_mps_[u] + (norm(smooth_[u]) - kAcceleration_mps2) * Px4Means::kPeriod_s);
-    }
-    const Largest worst = largest_of(excess_mps_);
-    if (worst.value <= kVelocity_mps) return {};
-    return {true, sensors_of(worst.unit), {}};
-  }
-
- private:
-  static constexpr double kAcceleration_mps2 = 1.0, kVelocity_mps = 2.0;
-  Units smooth_{};
-  std::array<double, kUnits> excess_mps_{};
-};
-
-/// PX4's sensor voter compares no unit with another: it trusts one less after driver errors, silence, or when it
-/// repeats itself, which is all that can happen here. Repetitions of the three axes add up; one that moves ends them.
-class Px4Voter {
- public:
-  FlightFinding step(const Units& reading) {
-    FlightFinding out;
-    for (std::size_t u = 0; u < kUnits; ++u) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const bool same = std::fabs(reading[u][axis] - last_[u][axis]) < 1e-6;
-        repeats_[u] = same ? repeats_[u] + 1 : 0;
-      }
-      if (repeats_[u] > kMostRepeats) out.isolated = out.isolated | sensors_of(u);
-    }
-    last_ = reading;
-    out.alarm = !out.isolated.empty();
-    return out;
-  }
-
- private:
-  static constexpr int kMostRepeats = 100;
-  Units last_{};
-  std::array<int, kUnits> repeats_{};
-};
+  out.alarm = units != 0;
+  return out;
+}
 
 /// ArduPilot's check that accelerometers agree, before arming: readings behind the 20 Hz filter of INS_ACCEL_FILTER,
 /// each unit against the first, z at half weight, the limit of ARMING_ACCTHRESH, three times that for the third unit.
@@ -240,9 +189,9 @@ class Rivals {
   const std::array<FlightFinding, kRules - 1>& step(const MotionSample& sample) {
     const Units reading = units_of(sample.reading_mps2);
     auto& [selector, voter, check, median, glt, glt_tuned] = found_;
-    if (px4_.add(reading)) {
-      selector = selector_.step(px4_.mean());
-      voter = voter_.step(px4_.mean());
+    if (px4_.add(vectors_of(reading))) {
+      selector = blamed(selector_.step(px4_.mean(), px4_.period_s()));
+      voter = blamed(voter_.step(px4_.mean(), px4_.period_s()));
     }
     check = check_.step(reading, sample.time_s);
     if (const std::optional<Apart> apart = blocks_.add(sample)) {
@@ -265,7 +214,7 @@ class Rivals {
   }
 
   TunedLimits limits_;
-  Px4Means px4_;
+  Px4Means px4_{1000.0};
   Px4Selector selector_;
   Px4Voter voter_;
   ArduPilotCheck check_;

@@ -1,8 +1,9 @@
 /// The rules that autopilots and textbooks use against inconsistent accelerometers, on the flights on which a motion
 /// monitor is judged. For comparison only; none of them is in the library.
 ///
-/// They are re-stated from the sources named in rivals.cpp, with the parameters that those ship with. What a rule knows
-/// beside accelerometers and gyros (GNSS, barometer, driver errors) is not simulated and stays silent.
+/// They are re-stated from the sources named in rivals.cpp and px4_rules.cpp, with the parameters that those ship with.
+/// What a rule knows beside accelerometers and gyros (GNSS, barometer, driver errors) is not simulated and stays
+/// silent.
 #pragma once
 
 #include <array>

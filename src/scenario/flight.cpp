@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
+#include <utility>
 
 #include "flight_bank.hpp"
 #include "flight_errors.hpp"
@@ -23,11 +23,6 @@ constexpr std::uint64_t kOversampling = 8;
 /// Instants before the first sample: 0.25 s, in which filters settle and which sensors that are late look back on.
 std::uint64_t lead_in(double rate_hz) noexcept {
   return kOversampling * static_cast<std::uint64_t>(std::ceil(0.25 * rate_hz));
-}
-
-const FlightSpec& checked(const FlightSpec& spec) {
-  if (const auto allowed = check(spec); !allowed) throw std::invalid_argument(allowed.error());
-  return spec;
 }
 
 std::vector<BankSensor> bank_sensors(const FlightSpec& spec, const std::vector<FlightSensorErrors>& errors) {
@@ -114,7 +109,7 @@ Flight::Parts::Reach Flight::Parts::reach() const noexcept {
 }
 
 Flight::Parts::Parts(const FlightSpec& what)
-    : spec(checked(what)),
+    : spec(what),
       errors(draw_sensor_errors(spec)),
       gyro_errors(draw_gyro_errors(spec)),
       step_s_(1.0 / (spec.rate_hz * static_cast<double>(kOversampling))),
@@ -220,7 +215,12 @@ FlightSample Flight::Parts::next() {
   return out;
 }
 
-Flight::Flight(const FlightSpec& spec) : parts_(std::make_unique<Parts>(spec)) {}
+tl::expected<Flight, std::string> Flight::make(const FlightSpec& spec) {
+  if (const auto allowed = check(spec); !allowed) return tl::unexpected<std::string>(allowed.error());
+  return Flight(std::make_unique<Parts>(spec));
+}
+
+Flight::Flight(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts)) {}
 Flight::Flight(Flight&&) noexcept = default;
 Flight& Flight::operator=(Flight&&) noexcept = default;
 Flight::~Flight() = default;

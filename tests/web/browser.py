@@ -115,6 +115,8 @@ def check_design(page):
         design = page.script("JSON.stringify({...window.plumb.design.geometry, samples: 32})")
         said = page.script("JSON.stringify(window.plumb.core.study(JSON.parse(arguments[0])))", design)
         assert json.loads(said) == json.loads(page.says("study", design)), option
+    check_chips(page)
+    check_compare(page)
     page.choose("geometry", "paper-tetrahedron")
     figures = "document.getElementById('design-figures').textContent"
     before = page.script(figures)
@@ -133,6 +135,34 @@ def check_design(page):
     assert "emedy" in page.script("document.getElementById('design-error').textContent")
     page.choose("geometry", "platonic:6")
     assert page.script("document.getElementById('design-error').hidden")
+
+
+def check_chips(page):
+    """A chip is added, taken apart, and named in the array file; every sensor has its thresholds."""
+    text = "document.getElementById('design-merit').textContent"
+    page.choose("geometry", "triad")
+    page.browser.find_element(By.ID, "add-triad").click()
+    assert page.script("window.plumb.design.geometry.chips.join()") == "0,0,0,1,1,1"
+    assert "chip 1 (a4 a5 a6)" in page.script(text), page.script(text)
+    assert page.script("window.plumb.design.arrayFile()").count('package = "chip1"') == 3
+    assert len(page.browser.find_elements(By.CSS_SELECTOR, "#design-sensors tbody tr")) == 6
+    page.browser.execute_script("const s = document.querySelectorAll('#axes select')[3]; s.value = 0; "
+                                "s.dispatchEvent(new Event('change', {bubbles: true}));")
+    assert page.script("window.plumb.design.geometry.chips.join()") == "0,0,0,0,1,1"
+
+
+def check_compare(page):
+    """Six sensors against four: more faults are isolated, smaller ones are found; the same design differs in nothing."""
+    rows = ("Object.fromEntries([...document.querySelectorAll('#compare tbody tr')].map(r => "
+            "[r.children[0].textContent, r.children[3].textContent]))")
+    page.choose("geometry", "paper-tetrahedron")
+    page.browser.find_element(By.ID, "keep-design").click()
+    same = page.script(rows)
+    assert len(same) > 10 and set(same.values()) == {"same"}, same
+    page.choose("geometry", "platonic:6")
+    now = page.script(rows)
+    assert "better" in now["faulty units isolated at rest"] and now["sensors"] == "differs", now
+    assert "better" in now["guaranteed isolation threshold"], now
 
 
 def check_drag(page):
@@ -158,6 +188,9 @@ def check_break(page):
         page.choose("preset", preset)
         digests.add(page.check_run())
     assert len(digests) == len(page.script("[...document.querySelectorAll('#preset option')]")), "two stories are the same"
+    check_table2(page)
+    check_motions(page)
+    check_rules(page)
     page.choose("preset", "drift")
     before = page.check_run()
     slider = page.browser.find_element(By.CSS_SELECTOR, "#faults input[type=range]")
@@ -180,6 +213,50 @@ def check_break(page):
     then = page.script("document.getElementById('time').textContent")
     page.wait(f"document.getElementById('time').textContent !== {json.dumps(then)}")
     page.browser.find_element(By.ID, "play").click()
+
+
+def check_table2(page):
+    """All 23 experiments, at the press of a button: nobody who is healthy is named, and single faults are found."""
+    page.choose("preset", "table2")
+    page.check_run()
+    page.browser.find_element(By.ID, "table2-all").click()
+    answers = "[...document.querySelectorAll('#table2 tbody tr')].map(r => r.lastElementChild.textContent)"
+    page.wait(f"{answers}.every(text => text !== '')", 120)
+    told = page.script(answers)
+    assert len(told) == 23 and set(told) <= {"right", "withheld"}, told
+    assert told[0] == "right" and told[17:] == ["withheld"] * 6, told
+    page.settle()
+    page.browser.find_elements(By.CSS_SELECTOR, "#table2 tbody button")[13].click()
+    page.check_run()
+    assert page.script("window.plumb.second.scene.faults.join()").startswith("a4:stuck=0V")
+
+
+def check_motions(page):
+    """Every motion, of chips and of single sensors; what is shown there is of a flight."""
+    for preset in ("chip", "drift"):
+        for motion in page.script("[...document.querySelectorAll('#motion option')].map(o => o.value)"):
+            page.choose("preset", preset)
+            page.choose("motion", motion)
+            page.check_run()
+            flight = motion not in ("stations", "roll")
+            assert page.script("document.getElementById('machine-card').hidden") == flight, motion
+            assert ("its bound" in page.script("document.getElementById('verdict').textContent")) == flight, motion
+
+
+def check_rules(page):
+    """A chip that fails in flight is named by plumb, in the table of rules and in the list of explanations; PX4 names it later."""
+    page.choose("preset", "flight")
+    page.check_run()
+    cells = "[...document.querySelectorAll('#rules tbody tr')].map(r => [...r.children].map(c => c.textContent))"
+    plumb, paper, px4, _ = page.script(cells)
+    assert plumb[2] == px4[2] == "a1 a2 a3" and plumb[5] == px4[5] == "no" and paper[1] == "not there", (plumb, paper, px4)
+    after = [float(told[4].removeprefix("after ").removesuffix(" s")) for told in (plumb, px4)]
+    assert after[0] < 0.1 < after[1], after
+    assert "chip 1 (a1 a2 a3) excluded" in page.script("document.getElementById('sets').textContent")
+    page.choose("preset", "drilling")
+    page.check_run()
+    plumb, paper, _, plain = page.script(cells)
+    assert plumb[2] == "a2" and plumb[5] == "no" and paper[1] != "not there" and plain[5] == "no", (plumb, paper, plain)
 
 
 def check_looks(page, shots):

@@ -9,6 +9,7 @@
 #include "plumb/core/units.hpp"
 #include "plumb/findings/geometry_study.hpp"
 #include "plumb/io/json_fields.hpp"
+#include "plumb/motion/motion_evidence.hpp"
 #include "plumb/render/geometry_report.hpp"
 #include "reading.hpp"
 
@@ -67,15 +68,14 @@ std::string study(const std::string& design) {
   AxisList axes{};
   const int n = read.is_object() ? read_axes(read, axes) : 0;
   if (n == 0) return refusal(axes_wanted());
+  const ChipList chips = read_chips(read);
+  const double noise_mps2 = number(read, "noise_mps2", 2e-4 * kG0_mps2);
   std::array<SensorRow, kCapacity> rows{};
   for (int i = 0; i < n; ++i) {
     const double length = norm(axes[slot(i)]);
     if (!(length > 1e-6))
       return refusal(fmt::format("axis a{} has no direction. Remedy: change one of its numbers", i + 1));
-    rows[slot(i)].id = make_id(fmt::format("a{}", i + 1).c_str());
-    rows[slot(i)].axis = axes[slot(i)];
-    rows[slot(i)].sigma_mps2 = number(read, "noise_mps2", 2e-4 * kG0_mps2);
-    if (std::fabs(length - 1.0) > 1e-9) rows[slot(i)].axis = scaled(axes[slot(i)], 1.0 / length);
+    rows[slot(i)] = row_of(axes, chips, i, noise_mps2);
   }
   const Expected<SensorArray> array = SensorArray::make(rows.data(), n);
   if (!array) return refused(array.error());
@@ -85,11 +85,15 @@ std::string study(const std::string& design) {
   subject.array = *array;
   subject.settings.samples = number(read, "samples", subject.settings.samples);
   const findings::GeometryStudy found = findings::study_geometry(subject);
-  const std::string text = render::geometry_json(subject, found);
-  if (number(read, "map", 0.0) == 0.0) return text;
-  io::Json with_map = io::parsed(text);
-  with_map["map"] = map_of(found);
-  return with_map.dump();
+  io::Json out = io::parsed(render::geometry_json(subject, found));
+  // In motion parity alone isolates, and of so many sensors that all sets of four can be tested.
+  if (n <= kMotionCapacity) {
+    out["motion_grade"] = motion_grade(*array, array->all());
+  } else {
+    out["motion_grade"] = nullptr;
+  }
+  if (number(read, "map", 0.0) != 0.0) out["map"] = map_of(found);
+  return out.dump();
 }
 
 }  // namespace plumb_web

@@ -1,115 +1,22 @@
 // The second view of the page: a tool in a scenario, the monitor that watches it, and what is really the case.
 #include <cmath>
-#include <limits>
 
 #include "explorer.hpp"
+#include "flight_run.hpp"
 #include "plumb/array/geometry.hpp"
 #include "plumb/calibration/calibration.hpp"
 #include "plumb/core/detail/archive.hpp"
-#include "plumb/core/units.hpp"
-#include "plumb/detection/stationarity.hpp"
-#include "plumb/findings/best_turn.hpp"
 #include "plumb/io/hash.hpp"
 #include "plumb/io/json_fields.hpp"
-#include "plumb/scenario/fault_text.hpp"
 #include "plumb/scenario/library.hpp"
-#include "reading.hpp"
+#include "rivals.hpp"
+#include "scene.hpp"
 
 namespace plumb_web {
 
 using namespace plumb;
 
 namespace {
-
-constexpr int kMostStations = 200;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t slot(int i) { return static_cast<std::size_t>(i); }
-
-/// Sensors of the paper's kind along these axes: what the array file says that the page offers.
-Datasheet datasheet_of(const AxisList& axes, int n, double noise_mps2) {
-  Datasheet out;
-  out.size = n;
-  out.reads = Reads::gravity;
-  for (int i = 0; i < n; ++i) {
-    DatasheetSensor& sensor = out.sensor[slot(i)];
-    sensor.row.id = make_id(("a" + std::to_string(i + 1)).c_str());
-    const double length = norm(axes[slot(i)]);
-    sensor.row.axis = std::fabs(length - 1.0) > 1e-9 ? scaled(axes[slot(i)], 1.0 / length) : axes[slot(i)];
-    sensor.row.sigma_mps2 = noise_mps2;
-    sensor.coefficients.scale[0] = scenario::kPaperScale_VpMps2;
-    sensor.full_scale_raw = scenario::kPaperFullScale_V;
-    sensor.resolution_raw = scenario::kPaperResolution_V;
-  }
-  return out;
-}
-
-/// The stations of the stand, found as `plumb calibrate` finds them in its log.
-std::vector<Station> stations_of(const scenario::Tool& tool, const SensorArray& array, const GravityReference& gravity,
-                                 std::uint64_t seed) {
-  std::vector<Station> out;
-  auto stand = scenario::Simulator::make(scenario::calibration_run(tool, seed));
-  if (!stand) return out;
-  const SensorModel model = tool.datasheet.model();
-  const MonitorConfig config;
-  StationFinder::Settings settings;
-  settings.station_angle_rad = config.station_angle_rad;
-  settings.max_gap_s = config.max_gap_s;
-  const auto finder = std::make_unique<StationFinder>(array, gravity.g_mps2, settings);
-  Station finished;
-  for (Sample sample; stand->next(sample);) {
-    const SensorSet usable = sample.delivered & array.all();
-    const Readings y = model.apply(sample.raw, sample.temperature_degc, usable);
-    if (finder->add(sample, y, usable, finished)) out.push_back(finished);
-  }
-  if (finder->finish(finished)) out.push_back(finished);
-  return out;
-}
-
-scenario::Scenario scenario_of(const json& scene, const scenario::Tool& tool) {
-  scenario::Scenario out = scenario::drilling_run(tool, 1);
-  scenario::DrillingPath path;
-  const double stations = number(scene, "stations", 14.0);
-  path.stations = stations >= 1.0 && stations <= kMostStations ? static_cast<int>(stations) : kMostStations;
-  path.first.inclination_rad = rad_from_deg(number(scene, "inclination_deg", 20.0));
-  path.build_rad = rad_from_deg(number(scene, "build_deg", 1.5));
-  path.toolface_step_rad = rad_from_deg(number(scene, "toolface_step_deg", 137.5));
-  out.attitudes = path;
-  out.dwell_s = number(scene, "dwell_s", 2.0);
-  out.move_s = number(scene, "move_s", 1.0);
-  out.vibration_mps2 = number(scene, "vibration_mps2", 0.1 * kG0_mps2);
-  out.seed = static_cast<std::uint64_t>(std::fabs(number(scene, "seed", 3.0)));
-  return out;
-}
-
-std::unique_ptr<MonitorSetup> setup_of(const Datasheet& datasheet, const Calibration& fit,
-                                       const GravityReference& gravity) {
-  auto out = std::make_unique<MonitorSetup>();
-  out->model = fit.model;
-  out->array = fit.array;
-  out->gravity = gravity;
-  out->config.alert_frame = AlertFrame::calibrated_axes;
-  out->config.temperature_min_degc = fit.report.temperature_min_degc;
-  out->config.temperature_max_degc = fit.report.temperature_max_degc;
-  for (int i = 0; i < datasheet.size; ++i) {
-    out->full_scale_raw[slot(i)] = datasheet.sensor[slot(i)].full_scale_raw;
-    out->resolution_raw[slot(i)] = datasheet.sensor[slot(i)].resolution_raw;
-  }
-  return out;
-}
-
-Mat3 turn_of(const scenario::Tool& tool) {
-  findings::BestTurn best;
-  for (int i = 0; i < tool.datasheet.size; ++i) {
-    best.add(tool.datasheet.sensor[slot(i)].row.axis, tool.axes[slot(i)]);
-  }
-  const findings::Turn turn = best.find(findings::Hand::kept);
-  Mat3 out{};
-  for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) out[3 * r + c] = turn[r][c];
-  }
-  return out;
-}
 
 /// Every scalar of a verdict into one sum.
 class Digest {
@@ -136,184 +43,222 @@ bool is_current(const Verdict& v, const scenario::Truth& truth) {
   return !truth.moving && v.validity >= Validity::unconfirmed && norm(v.gravity_mps2) > 0.0;
 }
 
-double bits_of(SensorSet set) { return static_cast<double>(set.bits); }
+io::Json list_of(const std::vector<std::string>& words) {
+  io::Json out = io::Json::array();
+  for (const std::string& one : words) out.push_back(one);
+  return out;
+}
 
-/// The entries of `record_names` but for the last ones, of the sensors.
-constexpr int kCommonFigures = 42;
+io::Json units_json(const std::vector<SensorSet>& units) {
+  io::Json out = io::Json::array();
+  for (const SensorSet unit : units) out.push_back(unit.bits);
+  return out;
+}
 
 }  // namespace
 
-const std::vector<std::string>& record_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> out = {"time_s",
-                                    "station",
-                                    "moving",
-                                    "state",
-                                    "validity",
-                                    "cause",
-                                    "qualifiers",
-                                    "decided_by",
-                                    "statistic",
-                                    "limit",
-                                    "in_service",
-                                    "provisionally_excluded",
-                                    "excluded",
-                                    "absent",
-                                    "suspects",
-                                    "faulty",
-                                    "event",
-                                    "from",
-                                    "to",
-                                    "event_cause",
-                                    "event_sensors",
-                                    "error_rad",
-                                    "plain_rad",
-                                    "protection_rad",
-                                    "told_x",
-                                    "told_y",
-                                    "told_z",
-                                    "true_x",
-                                    "true_y",
-                                    "true_z",
-                                    "hypotheses",
-                                    "on_record",
-                                    "parity",
-                                    "parity_limit",
-                                    "mae_mps2",
-                                    "mae_limit_mps2",
-                                    "norm_error",
-                                    "wants_turn",
-                                    "confirmed_grade",
-                                    "provisional_grade",
-                                    "tick",
-                                    "alert"};
-    for (int i = 1; i <= kCapacity; ++i) out.push_back("minimum_faults_" + std::to_string(i));
-    return out;
-  }();
-  return names;
+/// One run from station to station, or of a roll test.
+class StationRun {
+ public:
+  StationRun(scenario::Simulator simulator, std::unique_ptr<MonitorSetup> setup,
+             std::vector<scenario::HostRequest> requests, const Datasheet& datasheet,
+             const std::vector<Station>& stations)
+      : simulator_(std::move(simulator)),
+        setup_(std::move(setup)),
+        host_(std::move(requests)),
+        turn_(turn_of(simulator_.scenario().tool)),
+        all_(least_squares(setup_->array, setup_->array.all())),
+        paper_(datasheet, *setup_, stations),
+        px4_(setup_->array, simulator_.scenario().rate_hz) {}
+
+  Expected<void> configure() { return monitor_->configure(*setup_); }
+  const scenario::Simulator& simulator() const { return simulator_; }
+  const PaperBeside& paper() const { return paper_; }
+  const Px4Beside& px4() const { return px4_; }
+  std::uint64_t digest() const { return digest_; }
+
+  bool next(Record& record) {
+    Sample sample;
+    if (!simulator_.next(sample)) return false;
+    host_.before(sample.time_s, *monitor_);
+    monitor_->step(sample);
+    const SensorSet usable = sample.delivered & setup_->array.all();
+    const Readings y = setup_->model.apply(sample.raw, sample.temperature_degc, usable);
+    paper_.step(sample);
+    px4_.step(y, usable);
+    hash();
+    tell(sample, record);
+    tell_direction(y, usable, record);
+    tell_rivals(record);
+    return true;
+  }
+
+ private:
+  void hash() {
+    Digest digest(digest_, monitor_->array().size());
+    transfer(digest, monitor_->verdict(), AnyBits{});
+    if (paper_.absent().empty()) transfer(digest, paper_.verdict(), AnyBits{});
+    for (const SensorSet blamed : {px4_.selector(), px4_.voter()}) digest.scalar(blamed.bits, AnyBits{});
+    digest_ = digest.sum();
+  }
+  void tell(const Sample& sample, Record& record) const;
+  void tell_direction(const Readings& y, SensorSet usable, Record& record) const;
+  void tell_rivals(Record& record) const;
+  Vec3 down() const { return times(turn_, simulator_.truth().gravity_mps2); }
+
+  scenario::Simulator simulator_;
+  std::unique_ptr<MonitorSetup> setup_;
+  std::unique_ptr<HealthMonitor> monitor_ = std::make_unique<HealthMonitor>();
+  scenario::Host host_;
+  Mat3 turn_;  ///< from the frame of the housing into that of the nominal axes
+  LeastSquares all_;
+  PaperBeside paper_;
+  Px4Beside px4_;
+  std::uint64_t digest_ = io::kFnvStart;
+};
+
+void StationRun::tell(const Sample& sample, Record& record) const {
+  const Verdict& v = monitor_->verdict();
+  const TransitionRecord& event = v.transition;
+  const bool changed = event.sequence != 0;
+  record.set(At::time_s, sample.time_s);
+  record.set(At::station, simulator_.truth().station);
+  record.set(At::moving, simulator_.truth().moving);
+  record.set(At::faulty, simulator_.truth().faulty);
+  record.set(At::state, v.state);
+  record.set(At::validity, v.validity);
+  record.set(At::cause, v.cause);
+  record.set(At::qualifiers, v.qualifiers);
+  record.set(At::decided_by, v.decided_by);
+  record.set(At::statistic, v.statistic);
+  record.set(At::limit, v.limit);
+  record.set(At::in_service, v.in_service);
+  record.set(At::provisionally_excluded, v.provisionally_excluded);
+  record.set(At::excluded, v.excluded);
+  record.set(At::absent, v.absent);
+  record.set(At::suspects, v.suspects);
+  record.set(At::event, changed ? static_cast<int>(event.event) : -1);
+  record.set(At::from, changed ? static_cast<int>(event.from) : -1);
+  record.set(At::to, changed ? static_cast<int>(event.to) : -1);
+  record.set(At::event_cause, changed ? static_cast<int>(event.cause) : -1);
+  record.set(At::event_sensors, changed ? event.sensors : SensorSet());
+  record.set(At::hypotheses, v.consistent_hypotheses);
+  record.set(At::on_record, v.stations_on_record);
+  record.set(At::parity, v.parity);
+  record.set(At::parity_limit, v.parity_limit);
+  record.set(At::mae_mps2, v.mae_worst_mps2);
+  record.set(At::mae_limit_mps2, v.mae_worst_limit_mps2);
+  record.set(At::norm_error, v.norm_error_mps2);
+  record.set(At::wants_turn, v.wants_rotation);
+  record.set(At::confirmed_grade, v.confirmed_grade);
+  record.set(At::provisional_grade, v.provisional_grade);
+  record.set(At::tick, v.tick);
+  record.set(At::alert, v.alert);
+  for (std::size_t i = 0; i < v.minimum_faults.size(); ++i) record.minimum_faults(i, v.minimum_faults[i]);
 }
 
+void StationRun::tell_direction(const Readings& y, SensorSet usable, Record& record) const {
+  const Verdict& v = monitor_->verdict();
+  const scenario::Truth& truth = simulator_.truth();
+  record.set(At::told_x, v.gravity_mps2);
+  record.set(At::true_x, down());
+  if (is_current(v, truth)) record.set(At::error_rad, angle_between_rad(v.gravity_mps2, down()));
+  if (v.protection_available) record.set(At::protection_rad, v.protection_level_calibrated_axes_rad);
+  if (!truth.moving && usable == setup_->array.all())
+    record.set(At::plain_rad, angle_between_rad(all_.estimate(y), down()));
+}
+
+void StationRun::tell_rivals(Record& record) const {
+  const scenario::Truth& truth = simulator_.truth();
+  if (paper_.absent().empty()) {
+    const Verdict& v = paper_.verdict();
+    record.set(At::paper_state, v.state);
+    record.set(At::paper_validity, v.validity);
+    record.set(At::paper_out, v.excluded | v.provisionally_excluded);
+    record.set(At::paper_suspects, v.suspects);
+    record.set(At::paper_statistic, v.mae_all_mps2);
+    if (is_current(v, truth)) record.set(At::paper_error_rad, angle_between_rad(paper_.down(), down()));
+  }
+  if (px4_.units().empty()) return;
+  record.set(At::px4_selector, px4_.selector());
+  record.set(At::px4_voter, px4_.voter());
+  record.set(At::px4_in_use, px4_.in_use());
+  if (!truth.moving) record.set(At::px4_error_rad, angle_between_rad(px4_.vector(), down()));
+}
+
+Play::Play() = default;
+Play::~Play() = default;
+
 std::string Play::begin(const std::string& scene_text) {
-  *this = Play();
-  digest_ = io::kFnvStart;
+  stations_.reset();
+  flight_.reset();
+  records_.clear();
   const json scene = json::parse(scene_text, nullptr, false);
   AxisList axes{};
   const int n = scene.is_object() ? read_axes(scene, axes) : 0;
   if (n == 0) return refusal(axes_wanted());
+  const std::string motion = motion_of(scene);
+  return motion == "stations" || motion == "roll" ? begin_stations(scene, axes, n) : begin_flight(scene, axes, n);
+}
+
+std::string Play::begin_stations(const json& scene, const AxisList& axes, int n) {
   const GravityReference gravity;
-  const Datasheet datasheet = datasheet_of(axes, n, number(scene, "noise_mps2", scenario::kPaperNoise_mps2));
+  const Datasheet datasheet =
+      datasheet_of(axes, read_chips(scene), n, number(scene, "noise_mps2", scenario::kPaperNoise_mps2), paper_make());
   const Expected<SensorArray> nominal = datasheet.array();
   if (!nominal) return refused(nominal.error());
-  const auto seed_of = [&scene](const char* key) {
-    return static_cast<std::uint64_t>(std::fabs(number(scene, key, 1.0)));
-  };
-  const scenario::Tool tool = scenario::draw_tool(datasheet, seed_of("truth_seed"));
-  const std::vector<Station> stations = stations_of(tool, *nominal, gravity, seed_of("stand_seed"));
+  const scenario::Tool tool = scenario::draw_tool(datasheet, seed_of(scene, "truth_seed", 1.0));
+  const std::vector<Station> stations = stations_of(tool, *nominal, gravity, seed_of(scene, "stand_seed", 1.0));
   const auto fit = calibrate(datasheet, gravity, stations.data(), static_cast<int>(stations.size()));
   if (!fit) return refused(fit.error());
-  scenario::Scenario world = scenario_of(scene, tool);
-  scenario::FaultContext context;
-  context.datasheet = datasheet;
-  io::Json told = io::Json::array();
-  for (const std::string& text : texts(scene, "faults")) {
-    const auto faults = scenario::parse_faults(text, context);
-    if (!faults) return refusal(text + ": " + faults.error());
-    for (const scenario::Fault& fault : *faults) {
-      told.push_back(scenario::describe(fault, context));
-      world.faults.push_back(fault);
-    }
-  }
-  std::vector<scenario::HostRequest> requests;
-  for (const std::string& text : texts(scene, "requests")) {
-    const auto request = scenario::parse_host_request(text, *nominal);
-    if (!request) return refusal(text + ": " + request.error());
-    requests.push_back(*request);
-  }
-  host_ = scenario::Host(requests);
-  auto simulator = scenario::Simulator::make(world);
+  scenario::Scenario world = world_of(scene, tool);
+  tl::expected<SceneFaults, std::string> faults = faults_of(scene, datasheet);
+  if (!faults) return refusal(faults.error());
+  world.faults = faults->faults;
+  tl::expected<std::vector<scenario::HostRequest>, std::string> requests = requests_of(scene, *nominal);
+  if (!requests) return refusal(requests.error());
+  auto simulator = scenario::Simulator::make(std::move(world));
   if (!simulator) return refusal(simulator.error());
-  simulator_ = std::make_unique<scenario::Simulator>(*std::move(simulator));
-  turn_ = turn_of(tool);
-  setup_ = setup_of(datasheet, *fit, gravity);
-  monitor_ = std::make_unique<HealthMonitor>();
-  const Expected<void> configured = monitor_->configure(*setup_);
+  auto run = std::make_unique<StationRun>(*std::move(simulator), setup_of(datasheet, *fit, gravity),
+                                          *std::move(requests), datasheet, stations);
+  const Expected<void> configured = run->configure();
   if (!configured) return refused(configured.error());
-  io::Json out = io::object({{"samples", static_cast<double>(simulator_->size())},
-                             {"duration_s", simulator_->duration_s()},
-                             {"stations", static_cast<double>(simulator_->directions().size())}});
-  out["faults"] = std::move(told);
+  stations_ = std::move(run);
+  const scenario::Simulator& plays = stations_->simulator();
+  io::Json out = io::object({{"samples", static_cast<double>(plays.size())},
+                             {"duration_s", plays.duration_s()},
+                             {"stations", static_cast<double>(plays.directions().size())},
+                             {"paper_absent", stations_->paper().absent()}});
+  out["faults"] = list_of(faults->words);
+  out["px4_units"] = units_json(stations_->px4().units());
+  return out.dump();
+}
+
+std::string Play::begin_flight(const json& scene, const AxisList& axes, int n) {
+  tl::expected<std::unique_ptr<FlightRun>, std::string> flight = FlightRun::make(scene, axes, read_chips(scene), n);
+  if (!flight) return refusal(flight.error());
+  flight_ = *std::move(flight);
+  io::Json out = io::object({{"samples", static_cast<double>(flight_->samples())},
+                             {"duration_s", flight_->duration_s()},
+                             {"stations", 0.0},
+                             {"paper_absent", "it judges at rest only"}});
+  out["faults"] = list_of(flight_->faults());
+  out["px4_units"] = units_json(flight_->px4().units());
   return out.dump();
 }
 
 int Play::run(int samples) {
-  int done = 0;
-  for (Sample sample; done < samples && simulator_ && simulator_->next(sample); ++done) {
-    host_.before(sample.time_s, *monitor_);
-    monitor_->step(sample);
-    record(sample);
+  for (int done = 0; done < samples; ++done) {
+    Record record;
+    const bool stepped = stations_ ? stations_->next(record) : flight_ && flight_->next(record);
+    if (!stepped) return done;
+    record.append_to(records_);
   }
-  return done;
+  return samples;
 }
 
-void Play::record(const Sample& sample) {
-  const Verdict& v = monitor_->verdict();
-  Digest digest(digest_, monitor_->array().size());
-  transfer(digest, v, AnyBits{});
-  digest_ = digest.sum();
-  const scenario::Truth& truth = simulator_->truth();
-  const Vec3 down = times(turn_, truth.gravity_mps2);
-  const TransitionRecord& event = v.transition;
-  const bool changed = event.sequence != 0;
-  const SensorSet usable = sample.delivered & setup_->array.all();
-  const Readings y = setup_->model.apply(sample.raw, sample.temperature_degc, usable);
-  const LeastSquares plain = least_squares(setup_->array, setup_->array.all());
-  const auto number_of = [](auto value) { return static_cast<double>(value); };
-  const double figures[kCommonFigures] = {
-      sample.time_s,
-      number_of(truth.station),
-      truth.moving ? 1.0 : 0.0,
-      number_of(v.state),
-      number_of(v.validity),
-      number_of(v.cause),
-      number_of(v.qualifiers),
-      number_of(v.decided_by),
-      v.statistic,
-      v.limit,
-      bits_of(v.in_service),
-      bits_of(v.provisionally_excluded),
-      bits_of(v.excluded),
-      bits_of(v.absent),
-      bits_of(v.suspects),
-      bits_of(truth.faulty),
-      changed ? number_of(event.event) : -1.0,
-      changed ? number_of(event.from) : -1.0,
-      changed ? number_of(event.to) : -1.0,
-      changed ? number_of(event.cause) : -1.0,
-      changed ? bits_of(event.sensors) : 0.0,
-      is_current(v, truth) ? angle_between_rad(v.gravity_mps2, down) : kNothing,
-      truth.moving || usable != setup_->array.all() ? kNothing : angle_between_rad(plain.estimate(y), down),
-      v.protection_available ? v.protection_level_calibrated_axes_rad : kNothing,
-      v.gravity_mps2[0],
-      v.gravity_mps2[1],
-      v.gravity_mps2[2],
-      down[0],
-      down[1],
-      down[2],
-      number_of(v.consistent_hypotheses),
-      number_of(v.stations_on_record),
-      v.parity,
-      v.parity_limit,
-      v.mae_worst_mps2,
-      v.mae_worst_limit_mps2,
-      v.norm_error_mps2,
-      v.wants_rotation ? 1.0 : 0.0,
-      number_of(v.confirmed_grade),
-      number_of(v.provisional_grade),
-      v.tick ? 1.0 : 0.0,
-      v.alert ? 1.0 : 0.0,
-  };
-  records_.insert(records_.end(), figures, figures + kCommonFigures);
-  for (const std::uint8_t faults : v.minimum_faults) records_.push_back(static_cast<double>(faults));
+std::uint64_t Play::digest() const noexcept {
+  return stations_ ? stations_->digest() : flight_ ? flight_->digest() : io::kFnvStart;
 }
 
 }  // namespace plumb_web

@@ -1,8 +1,10 @@
 // The words and numbers that core and page share, so that the page writes none of them down a second time.
 #include "explorer.hpp"
+#include "flight_run.hpp"
 #include "plumb/health/transition_table.hpp"
 #include "plumb/io/json_fields.hpp"
 #include "plumb/scenario/catalogue.hpp"
+#include "plumb/study/experiments.hpp"
 
 namespace plumb_web {
 
@@ -50,6 +52,30 @@ io::Json catalogue_json() {
   return out;
 }
 
+/// The paper's Table 2 as it is printed, each experiment with its faults as text. "random" is one level, drawn and
+/// kept.
+io::Json table2_json() {
+  io::Json out = io::Json::array();
+  for (const study::Table2Row& row : study::kTable2) {
+    const char* const kind = row.level == study::Level::zero       ? "stuck=0V"
+                             : row.level == study::Level::minus_3v ? "stuck=-3V"
+                             : row.level == study::Level::plus_3v  ? "stuck=3V"
+                                                                   : "held=-3V..3V";
+    io::Json faults = io::Json::array();
+    for (int i = 0; i < 4; ++i) {
+      if (row.faulty.has(i)) faults.push_back("a" + std::to_string(i + 1) + ":" + kind);
+    }
+    io::Json one = io::object({{"number", row.number},
+                               {"faulty", row.faulty.bits},
+                               {"level", study::to_string(row.level)},
+                               {"detected", row.detected},
+                               {"isolated", row.isolated.bits}});
+    one["faults"] = std::move(faults);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string vocabulary() {
@@ -59,6 +85,10 @@ std::string vocabulary() {
   out["events"] = names_of<HealthEvent>(kEventCount);
   out["causes"] = names_of<Cause>(static_cast<int>(kLastCause) + 1);
   out["validities"] = names_of<Validity>(static_cast<int>(Validity::valid) + 1);
+  out["flight_events"] = names_of<FlightEvent>(kFlightEvents);
+  out["flight_causes"] = names_of<MotionCause>(static_cast<int>(MotionCause::irregular_time) + 1);
+  out["flight_validities"] = names_of<ForceValidity>(static_cast<int>(ForceValidity::bounded) + 1);
+  out["table2"] = table2_json();
   out["modes"] = names_of<Mode>(kModeCount);
   out["table"] = table();
   out["catalogue"] = catalogue_json();

@@ -12,6 +12,16 @@ export interface CatalogueEntry {
   parameters: { name: string; unit: string; standard: string; sweep: string }[];
 }
 
+/** A row of the paper's Table 2 as it is printed; sets of sensors as bits. */
+export interface Table2Row {
+  number: number;
+  faulty: number;
+  level: string;
+  detected: boolean;
+  isolated: number;
+  faults: string[];
+}
+
 export interface Vocabulary {
   capacity: number;
   states: string[];
@@ -22,10 +32,23 @@ export interface Vocabulary {
   table: { mode: number; event: number; target: string }[];
   catalogue: CatalogueEntry[];
   records: string[];
+  table2: Table2Row[];
+  flight_events: string[];
+  flight_causes: string[];
+  flight_validities: string[];
 }
+
+/** From station to station, a roll test, or a flight. */
+export type Motion = "stations" | "roll" | "drone" | "drilling" | "car" | "launch";
+export const isFlight = (motion: Motion): boolean => motion !== "stations" && motion !== "roll";
 
 export interface Scene {
   axes: Vec3[];
+  /** The chip of every sensor, counted from 1; 0: a unit of its own. */
+  chips: number[];
+  motion: Motion;
+  /** Of a flight. */
+  duration_s: number;
   noise_mps2: number;
   truth_seed: number;
   stand_seed: number;
@@ -46,6 +69,10 @@ export interface Begun {
   duration_s: number;
   stations: number;
   faults: string[];
+  /** Why the paper's rule is not there; empty where it is. */
+  paper_absent: string;
+  /** Bits of the sensors of each unit that PX4 chooses between. */
+  px4_units: number[];
 }
 
 interface Exports {
@@ -98,7 +125,7 @@ export class Core {
   }
 
   // eslint-disable-next-line @typescript-eslint/no-explicit-any
-  study(design: { name: string; axes: Vec3[]; noise_mps2: number; samples: number; map?: number }): any {
+  study(design: { name: string; axes: Vec3[]; chips?: number[]; noise_mps2: number; samples: number; map?: number }): any {
     this.ask(JSON.stringify(design));
     return this.told(this.wasm.plumb_study());
   }

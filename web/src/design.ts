@@ -1,42 +1,22 @@
 // The first view: a geometry, what it is worth, and the array file of it.
 import { Core, Refusal, type Vec3 } from "./core";
 import { byId, deg, download, figure, kG0, make, mg0, table } from "./dom";
+import { Comparison } from "./compare";
+import { chipsIn, kBuiltIn, shapeOf, turnChip, unitsOf, unitWords, type Geometry } from "./geometry";
+import { sensorSizes } from "./sizes";
 import { kAxisColours, Sphere } from "./sphere";
-
-export interface Geometry {
-  name: string;
-  axes: Vec3[];
-  noise_mps2: number;
-}
-
-const kBuiltIn: [string, string][] = [
-  ["paper-tetrahedron", "Tetrahedron of the paper, 4"],
-  ["platonic:4", "Octahedron's faces, 4"],
-  ["cone-axis:5", "Cone and its axis, 5"],
-  ["cone:5", "Cone, 5"],
-  ["platonic:6", "Dodecahedron's faces, 6"],
-  ["cone-axis:8", "Cone and its axis, 8"],
-  ["cone:8", "Cone, 8"],
-  ["triads", "Two triads, turned against each other, 6"],
-  ["triad", "One triad, 3"],
-];
-
-/** A second triad, turned by 45 deg about x and then about z. */
-function triads(): Vec3[] {
-  const r = Math.SQRT1_2;
-  return [[1, 0, 0], [0, 1, 0], [0, 0, 1], [r, r, 0], [-0.5, 0.5, r], [0.5, -0.5, r]];
-}
 
 export class Design {
   geometry: Geometry;
   private readonly sphere: Sphere;
+  private readonly comparison = new Comparison();
   private waiting = 0;
 
   constructor(
     private readonly core: Core,
     private readonly changed: () => void,
   ) {
-    this.geometry = { name: "paper-tetrahedron", axes: core.builtin("paper-tetrahedron"), noise_mps2: 2e-4 * kG0 };
+    this.geometry = { name: "paper-tetrahedron", ...shapeOf(core, "paper-tetrahedron"), noise_mps2: 2e-4 * kG0 };
     this.sphere = new Sphere("The axes of the sensors on a sphere. The table beside it holds the same numbers.", (k, axis, done) =>
       this.move(k, axis, done),
     );
@@ -53,13 +33,14 @@ export class Design {
       this.later();
     });
     byId("add-axis").addEventListener("click", () => this.resize(this.geometry.axes.length + 1));
+    byId("add-triad").addEventListener("click", () => this.addTriad());
     byId("remove-axis").addEventListener("click", () => this.resize(this.geometry.axes.length - 1));
     byId("download-array").addEventListener("click", () => download(`${this.fileName()}.toml`, this.arrayFile()));
     this.show();
   }
 
   choose(name: string): void {
-    if (name !== "own") this.geometry = { ...this.geometry, name, axes: name === "triads" ? triads() : this.core.builtin(name) };
+    if (name !== "own") this.geometry = { ...this.geometry, name, ...shapeOf(this.core, name) };
     this.show();
   }
 
@@ -89,7 +70,7 @@ alert_frame = "calibrated-axes"
 id = "a${i + 1}"
 axis = [${axis.map(component).join(", ")}]
 scale = "3 V/g0"
-noise = "${noise} ug0"
+noise = "${noise} ug0"${this.geometry.chips[i] ? `\npackage = "chip${this.geometry.chips[i]}"` : ""}
 full_scale = "5 V"
 resolution = "152.587890625 uV"
 prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
@@ -119,6 +100,21 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
     const spread = n - this.geometry.axes.length;
     if (spread < 0) this.geometry.axes = this.geometry.axes.slice(0, n);
     else this.geometry.axes = [...this.geometry.axes, this.farthest()];
+    this.geometry.chips = Array.from({ length: n }, (_, i) => this.geometry.chips[i] ?? 0);
+    this.own();
+    this.show();
+  }
+
+  /** A chip with three axes, turned away from those that are there; of a design without chips a chip all the same. */
+  private addTriad(): void {
+    const { axes, chips } = this.geometry;
+    if (axes.length + 3 > this.core.words.capacity) return;
+    const x = this.farthest();
+    const side = Math.abs(x[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0];
+    const y = rounded(normal(x, side));
+    const chip = Math.max(0, ...chips) + 1;
+    this.geometry.axes = [...axes, x, y, rounded(normal(x, y))];
+    this.geometry.chips = [...chips, chip, chip, chip];
     this.own();
     this.show();
   }
@@ -135,11 +131,12 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
       const near = Math.max(...this.units().map((u) => Math.abs(u[0] * axis[0] + u[1] * axis[1] + u[2] * axis[2])));
       if (near < least) [least, best] = [near, axis];
     }
-    return best.map((x) => Number(x.toFixed(4))) as Vec3;
+    return rounded(best);
   }
 
   private move(index: number, axis: Vec3, done: boolean): void {
-    this.geometry.axes[index] = axis.map((x) => Number(x.toFixed(4))) as Vec3;
+    turnChip(this.geometry, index, axis);
+    this.geometry.axes[index] = rounded(axis);
     this.own();
     this.drawSphere();
     this.fillInputs();
@@ -179,9 +176,24 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
         });
         return input;
       }),
+      this.chipChoice(i),
     ]);
-    byId("axes").replaceChildren(table("Axes of the sensors", ["sensor", "x", "y", "z"], rows));
+    byId("axes").replaceChildren(table("Axes of the sensors", ["sensor", "x", "y", "z", "chip"], rows));
     this.fillInputs();
+  }
+
+  private chipChoice(i: number): HTMLElement {
+    const choice = make("select", { "aria-label": `a${i + 1} chip` });
+    const most = Math.min(this.core.words.capacity, Math.max(0, ...this.geometry.chips) + 1);
+    for (let chip = 0; chip <= most; ++chip) {
+      choice.append(make("option", { value: chip, selected: this.geometry.chips[i] === chip }, chip ? String(chip) : "own"));
+    }
+    choice.addEventListener("change", () => {
+      this.geometry.chips[i] = Number(choice.value);
+      this.own();
+      this.show();
+    });
+    return choice;
   }
 
   private fillInputs(): void {
@@ -197,6 +209,7 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
       const said = this.core.study({ ...this.geometry, samples: 32, map: 1 });
       byId("design-error").hidden = true;
       this.tell(said);
+      this.comparison.now(this.geometry, said);
       this.changed();
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
@@ -211,8 +224,12 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
     const sizes = said.detection_sizes.stability_0 ?? Object.values(said.detection_sizes).find((v) => v && typeof v === "object");
     const card = (value: string, label: string, tone = "") =>
       make("div", { class: `card ${tone}` }, make("b", {}, value), make("span", {}, label));
+    const what = chipsIn(this.geometry.chips).length ? "unit" : "sensor";
+    const isolable = (n: number | null, words: string) =>
+      card(n === null ? "none" : String(n), `faulty ${plural(n ?? 0, what)} isolated ${words}`, n ? "good" : "");
     byId("design-figures").replaceChildren(
-      card(String(merit.confirmed_grade), `${plural(merit.confirmed_grade, "faulty sensor")} can be isolated and excluded`, merit.confirmed_grade ? "good" : ""),
+      isolable(merit.confirmed_grade, "at rest"),
+      isolable(said.motion_grade, said.motion_grade === null ? "in motion: 12 sensors at most are judged there" : "in motion"),
       card(mg0(sizes.minimum_detectable_bias_mps2), "minimum detectable bias"),
       card(mg0(sizes.guaranteed_detection_any_mps2), "guaranteed detection threshold, any attitude"),
       card(mg0(sizes.guaranteed_isolation_mps2), "guaranteed isolation threshold"),
@@ -231,6 +248,7 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
           ["Faults isolated without knowing gravity (provisional)", String(merit.provisional_grade)],
           ["Faults that may agree with one another", String(merit.correlated_grade)],
           ["Visibility of a bias that all share", figure(merit.common_bias_visibility, "")],
+          ["Units that fail at once", unitsOf(this.geometry.chips).map((unit) => unitWords(this.geometry.chips, unit)).join(", ")],
           ["Critical sensors", said.critical_sensors.length ? said.critical_sensors.join(" ") : "none"],
         ],
       ),
@@ -241,8 +259,17 @@ prior = {bias = "20 mg0", scale = "2 %", axis = "0.035 rad"}
     list("design-hidden", said.unobservable_permutations.map((h: any) => `${h.what}: turns the vector by ${figure(h.turn_deg, "deg")}`), "None: every exchange and reversal shows at some attitude.");
     // eslint-disable-next-line @typescript-eslint/no-explicit-any
     list("design-limits", [...said.warnings, ...said.known_limits].map((f: any) => f.text), "None.");
+    byId("design-sensors").replaceChildren(sensorSizes(said));
     drawMap(said.map);
   }
+}
+
+const rounded = (axis: number[]): Vec3 => axis.map((x) => Number(x.toFixed(4))) as Vec3;
+
+/** The unit vector across both. */
+function normal(a: number[], b: number[]): number[] {
+  const c = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  return c.map((x) => x / Math.hypot(...c));
 }
 
 const plural = (n: number, word: string): string => (n === 1 ? word : `${word}s`);

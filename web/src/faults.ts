@@ -1,6 +1,7 @@
 // Faults as the page shows them, and as the text that core and tool read: "a2:bias=50mg0@station6+station20".
 import type { CatalogueEntry } from "./core";
 import { make } from "./dom";
+import { chipsIn, unitWords, unitOf } from "./geometry";
 
 interface Kind {
   word: string;
@@ -27,24 +28,39 @@ const kKinds: Kind[] = [
 ];
 
 export interface Fault {
+  /** "a2", "chip2", or "log" for all. */
   sensor: string;
   word: string;
   /** As in the text, with its unit; empty: the default of the catalogue. */
   size: string;
-  station: number;
-  /** Stations; 0: for good. */
+  /** Station or, in a flight, seconds. */
+  onset: number;
+  unit: "station" | "s";
+  /** In the same unit; 0: for good. */
   lasts: number;
 }
 
 export function parseFault(text: string): Fault {
-  const found = /^(\w+):([\w-]+)(?:=([^@]*))?@station(\d+)(?:\+station(\d+))?$/.exec(text);
+  const found = /^(\w+):([\w-]+)(?:=([^@]*))?@(?:station(\d+)|([\d.]+)s)(?:\+(?:station(\d+)|([\d.]+)s))?$/.exec(text);
   if (!found) throw new Error(`${text} is no fault of this page`);
-  return { sensor: found[1], word: found[2], size: found[3] ?? "", station: Number(found[4]), lasts: Number(found[5] ?? 0) };
+  const [, sensor, word, size, station, seconds, stations, time_s] = found;
+  return { sensor, word, size: size ?? "", onset: Number(station ?? seconds), unit: station ? "station" : "s", lasts: Number(stations ?? time_s ?? 0) };
 }
 
 export function faultText(fault: Fault): string {
   const size = fault.size === "" ? "" : `=${fault.size}`;
-  return `${fault.sensor}:${fault.word}${size}@station${fault.station}${fault.lasts ? `+station${fault.lasts}` : ""}`;
+  const at = (value: number) => (fault.unit === "s" ? `${value}s` : `station${value}`);
+  return `${fault.sensor}:${fault.word}${size}@${at(fault.onset)}${fault.lasts ? `+${at(fault.lasts)}` : ""}`;
+}
+
+/** The same faults for the core, which knows sensors alone: a chip's are those of each of its sensors. */
+export function onSensors(faults: string[], chips: number[]): string[] {
+  return faults.flatMap((text) => {
+    const chip = /^chip(\d+):/.exec(text);
+    if (!chip) return [text];
+    const members = chips.flatMap((one, i) => (one === Number(chip[1]) ? [`a${i + 1}`] : []));
+    return members.map((sensor) => text.replace(/^chip\d+/, sensor));
+  });
 }
 
 const kSteps = 1000;
@@ -62,8 +78,10 @@ const fromSlider = (kind: Kind, part: number): number => {
 /** The rows in which faults are set. */
 export class FaultList {
   faults: Fault[] = [];
-  private sensors = 4;
-  private stations = 14;
+  private chips: number[] = [];
+  /** Stations, or seconds of a flight. */
+  private length = 14;
+  private unit: Fault["unit"] = "station";
 
   constructor(
     private readonly host: HTMLElement,
@@ -71,16 +89,18 @@ export class FaultList {
     private readonly changed: () => void,
   ) {}
 
-  show(faults: Fault[], sensors: number, stations: number): void {
+  show(faults: Fault[], chips: number[], length: number, unit: Fault["unit"]): void {
     this.faults = faults;
-    this.sensors = sensors;
-    this.stations = stations;
+    this.chips = chips;
+    this.length = length;
+    this.unit = unit;
     this.draw();
   }
 
   add(): void {
-    const sensor = `a${1 + (this.faults.length % this.sensors)}`;
-    this.faults.push({ sensor, word: "bias", size: "50mg0", station: Math.min(4, this.stations), lasts: 0 });
+    const sensor = `a${1 + (this.faults.length % this.chips.length)}`;
+    const [size, onset] = this.unit === "s" ? ["500mg0", 2] : ["50mg0", 4];
+    this.faults.push({ sensor, word: "bias", size, onset: Math.min(onset, this.length), unit: this.unit, lasts: 0 });
     this.draw();
     this.changed();
   }
@@ -100,7 +120,11 @@ export class FaultList {
       this.changed();
     };
     const sensor = make("select", name("Sensor"));
-    for (let i = 1; i <= this.sensors; ++i) sensor.append(make("option", { selected: fault.sensor === `a${i}` }, `a${i}`));
+    this.chips.forEach((_, i) => sensor.append(make("option", { value: `a${i + 1}`, selected: fault.sensor === `a${i + 1}` }, `a${i + 1}`)));
+    for (const chip of chipsIn(this.chips)) {
+      const words = unitWords(this.chips, unitOf(this.chips, this.chips.indexOf(chip)));
+      sensor.append(make("option", { value: `chip${chip}`, selected: fault.sensor === `chip${chip}` }, words));
+    }
     if (whole) sensor.replaceChildren(make("option", { value: "log", selected: true }, "all"));
     sensor.addEventListener("change", () => {
       fault.sensor = sensor.value;
@@ -108,9 +132,10 @@ export class FaultList {
     });
     const kinds = make("select", { ...name("Kind"), class: "grow" });
     const simple = make("optgroup", { label: "with a size" });
-    for (const one of kKinds) simple.append(make("option", { value: one.word, selected: one.word === fault.word }, one.words));
+    const possible = (all: boolean) => !all || this.unit === "station"; // in flight there is no gravity to be wrong
+    for (const one of kKinds.filter((k) => possible(k.whole ?? false))) simple.append(make("option", { value: one.word, selected: one.word === fault.word }, one.words));
     const listed = make("optgroup", { label: "fault catalogue" });
-    for (const one of this.catalogue) {
+    for (const one of this.catalogue.filter((c) => possible(c.whole_log))) {
       listed.append(make("option", { value: one.id, selected: one.id === fault.word, title: one.source }, `${one.id} ${one.title}`));
     }
     kinds.append(simple, listed);
@@ -126,7 +151,7 @@ export class FaultList {
     });
     const parts: HTMLElement[] = [sensor, kinds];
     if (kind) parts.push(this.size(fault, kind, name("Size")));
-    parts.push(this.onset(fault, name("First station")));
+    parts.push(this.onset(fault, name(this.unit === "s" ? "First second" : "First station")));
     parts.push(
       make("button", { type: "button", class: "quiet", "aria-label": `Remove fault ${k + 1}`, onclick: () => {
         this.faults.splice(k, 1);
@@ -151,13 +176,16 @@ export class FaultList {
   }
 
   private onset(fault: Fault, name: Record<string, string>): HTMLElement {
-    const output = make("output", {}, String(fault.station));
-    const slider = make("input", { ...name, type: "range", min: 1, max: this.stations, value: fault.station });
+    const output = make("output", {}, "");
+    const [words, step, least] = this.unit === "s" ? ["from second", 0.1, 0.5] : ["from station", 1, 1];
+    const slider = make("input", { ...name, type: "range", min: least, max: this.length, step, value: fault.onset });
+    const show = () => (output.textContent = this.unit === "s" ? `${fault.onset.toFixed(1)} s` : String(fault.onset));
     slider.addEventListener("input", () => {
-      fault.station = slider.valueAsNumber;
-      output.textContent = String(fault.station);
+      fault.onset = slider.valueAsNumber;
+      show();
       this.changed();
     });
-    return make("label", { class: "slider" }, make("span", {}, "from station"), slider, output);
+    show();
+    return make("label", { class: "slider" }, make("span", {}, words), slider, output);
   }
 }

@@ -1,13 +1,16 @@
 // What the second view begins with.
-import type { Scene, Vec3 } from "./core";
+import type { Scene } from "./core";
 import { kG0 } from "./dom";
+import { onSensors } from "./faults";
+import type { Geometry } from "./geometry";
 
 export interface Preset {
   id: string;
   words: string;
   what: string;
-  /** A built-in geometry, or that of the first view. */
+  /** A name that `shapeOf` knows. */
   geometry: string;
+  /** Faults may name a chip: "chip2:bias=50mg0@station6". */
   scene: Partial<Scene>;
 }
 
@@ -42,6 +45,41 @@ export const kPresets: Preset[] = [
     },
   },
   {
+    id: "table2",
+    words: "Table 2 of the paper: its 23 experiments",
+    what: "No fault, one or two sensors at 0 V, -3 V, +3 V or at random. Choose an experiment, or play them all: the paper's rule, plumb and PX4 see the same samples.",
+    geometry: "paper-tetrahedron",
+    scene: { faults: [], stations: 44, dwell_s: 0.7, move_s: 0.5 },
+  },
+  {
+    id: "chip",
+    words: "A chip fails: all three axes at once",
+    what: "Two chips of three axes. From the sixth station on every axis of chip 2 reads 20 mg0 too much. A chip is one fault: plumb excludes it as a whole.",
+    geometry: "chips:2",
+    scene: { faults: ["chip2:bias=20mg0@station6"], stations: 20 },
+  },
+  {
+    id: "flight",
+    words: "A drone's chip fails in flight",
+    what: "Three parallel chips on a drone, as an autopilot has them. Two seconds into the flight every axis of chip 1, the one that PX4 uses, reads 0.3 g0 too much.",
+    geometry: "chips:3",
+    scene: { motion: "drone", faults: ["chip1:bias=300mg0@2s"], duration_s: 6 },
+  },
+  {
+    id: "turning",
+    words: "A sensor fails while the drill string turns",
+    what: "Six sensors under rotation, vibration and shocks. a3 reads 0.5 g0 too much from 2.5 s on, and no window at rest is needed to see it.",
+    geometry: "platonic:6",
+    scene: { motion: "drilling", faults: ["a3:bias=500mg0@2.5s"], duration_s: 6 },
+  },
+  {
+    id: "roll",
+    words: "A roll test with a scale factor that is wrong",
+    what: "The tool lies and is rolled, sixteen toolfaces in a turn. The scale factor of a2 is 2 % too large from the fifth on.",
+    geometry: "paper-tetrahedron",
+    scene: { motion: "roll", inclination_deg: 90, stations: 16, faults: ["a2:scale=1.02@station5"] },
+  },
+  {
     id: "mirror",
     words: "The mirror fault: every triple but one is plausible",
     what: "a1 shows gravity mirrored in the plane of a2 and a3: the length stays right, and only more attitudes can tell.",
@@ -71,10 +109,13 @@ export const kPresets: Preset[] = [
   },
 ];
 
-export function sceneOf(axes: Vec3[], noise_mps2: number, part: Partial<Scene>): Scene {
+export function sceneOf(geometry: Pick<Geometry, "axes" | "chips" | "noise_mps2">, part: Partial<Scene>): Scene {
   return {
-    axes,
-    noise_mps2,
+    axes: geometry.axes,
+    chips: geometry.chips,
+    noise_mps2: geometry.noise_mps2,
+    motion: "stations",
+    duration_s: 6,
     truth_seed: 1,
     stand_seed: 1,
     seed: 3,
@@ -85,8 +126,8 @@ export function sceneOf(axes: Vec3[], noise_mps2: number, part: Partial<Scene>):
     dwell_s: 2,
     move_s: 1,
     vibration_mps2: 0.1 * kG0,
-    faults: [],
     requests: [],
     ...part,
+    faults: onSensors(part.faults ?? [], geometry.chips),
   };
 }

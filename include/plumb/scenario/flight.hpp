@@ -158,7 +158,9 @@ struct FlightSample {
 /// One flight without end, sample by sample.
 class Flight {
  public:
-  /// Throws std::invalid_argument, with the words of `check`, where that refuses.
+  /// Refuses, with the words of `check`, what cannot be flown.
+  static tl::expected<Flight, std::string> make(const FlightSpec& spec);
+  /// The same, and throws these words as std::invalid_argument.
   explicit Flight(const FlightSpec& spec);
   Flight(Flight&&) noexcept;
   Flight& operator=(Flight&&) noexcept;
@@ -174,6 +176,7 @@ class Flight {
 
  private:
   class Parts;
+  explicit Flight(std::unique_ptr<Parts> parts) noexcept;
   std::unique_ptr<Parts> parts_;
 };
 
