@@ -29,7 +29,7 @@ function play(scene) {
   const begin = cpu_us();
   let steps = 0;
   for (let done; (done = core.run(500)) > 0; ) steps += done;
-  return { digest: core.digest(), steps, us: cpu_us() - begin };
+  return { digest: core.digest(), decisions: core.decisions(), steps, us: cpu_us() - begin };
 }
 
 const noise_mps2 = 2e-4 * 9.80665;
@@ -38,12 +38,16 @@ check("vocabulary", JSON.stringify(core.words), JSON.stringify(JSON.parse(says("
 let steps = 0;
 let us = 0;
 let scenes = 0;
+const differ = [];
 function checkScene(what, scene) {
   const played = play(scene);
   steps += played.steps;
   us += played.us;
   ++scenes;
-  check(what, `digest ${played.digest}`, says("begin", JSON.stringify(scene)).split("\n").at(-1));
+  const [decisions, digest] = says("begin", JSON.stringify(scene)).split("\n").slice(-2);
+  check(what, `decisions ${played.decisions}`, decisions);
+  // Elsewhere the C library's mathematics and the order of sums may differ in a last digit.
+  if (`digest ${played.digest}` !== digest) differ.push(what);
   return played;
 }
 for (const preset of kPresets) {
@@ -54,7 +58,9 @@ for (const preset of kPresets) {
 }
 for (const row of core.words.table2) checkScene(`Table 2, no. ${row.number}`, experimentScene(toolOf("paper-tetrahedron"), row));
 for (const motion of ["drone", "drilling", "car", "launch"]) {
-  for (const [name] of kBuiltIn) {
+  for (const name of ["chips:3", "cone:5"]) checkScene(`${motion}, ${name}`, sceneOf(toolOf(name), { motion, duration_s: 3, faults: ["a2:stuck=0V@1s"] }));
+}
+for (const [name] of kBuiltIn) {
   const design = { name, ...toolOf(name), samples: 32 };
   check(name, JSON.stringify(core.study(design)), JSON.stringify(JSON.parse(says("study", JSON.stringify(design)))));
 }
@@ -66,7 +72,8 @@ for (const wrong of [
   () => core.begin({ axes: [] }),
   () => core.begin(sceneOf(toolOf("triad"), { faults: ["a9:stuck=0V@1s"] })),
   () => core.begin({ ...sceneOf(toolOf("cone:5"), {}), motion: "sailing" }),
-  () => core.begin({ ...sceneOf({ axes: Array.from({ length: 13 }, (_, k) => [Math.cos(k), Math.sin(k), 1]), chips: [], noise_mps2 }, {}), motion: "car" })]) {
+  () => core.begin({ ...sceneOf({ axes: Array.from({ length: 13 }, (_, k) => [Math.cos(k), Math.sin(k), 1]), chips: [], noise_mps2 }, {}), motion: "car" }),
+]) {
   let told = "nothing";
   try {
     wrong();
@@ -76,5 +83,7 @@ for (const wrong of [
   }
   check("a refusal", String(/[Rr]emedy: /.test(told)), "true");
 }
-console.log(`${scenes} scenes, ${steps} steps: ${failures ? `${failures} differences` : "equal bit for bit"}; ${(us / steps).toFixed(1)} us of processor a step, simulation and record included`);
-process.exitCode = failures ? 1 : 0;
+console.log(`${scenes} scenes, ${steps} steps: ${failures ? `${failures} differences` : "all decisions equal"}, every bit of every verdict in all but ${differ.length} (${differ.join(", ") || "none"}); ${(us / steps).toFixed(1)} us of processor a step, simulation and record included`);
+// Bits are equal as a rule: where they no longer are in a tenth of the scenes, something else has changed.
+if (differ.length > scenes / 10) console.error(`${differ.length} of ${scenes} scenes differ in some bit; at most a tenth are meant to`);
+process.exitCode = failures || differ.length > scenes / 10 ? 1 : 0;

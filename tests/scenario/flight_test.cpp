@@ -130,10 +130,15 @@ TEST(Flight, ReadingsAreClippedAtFullScale) {
 TEST(Flight, RefusesWhatCannotFly) {
   const FlightSpec good = spec_of(FlightKind::car, 1);
   ASSERT_TRUE(check(good));
+  ASSERT_TRUE(Flight::make(good));
+  EXPECT_EQ(Flight::make(good)->next().reading_mps2, Flight(good).next().reading_mps2);
   const auto refused = [&](const std::function<void(FlightSpec&)>& spoil) {
     FlightSpec spec = good;
     spoil(spec);
     EXPECT_THROW(Flight{spec}, std::invalid_argument);
+    const auto made = Flight::make(spec);
+    EXPECT_FALSE(made);
+    if (!made) EXPECT_EQ(made.error(), check(spec).error());
     return !check(spec).has_value();
   };
   EXPECT_TRUE(refused([](FlightSpec& s) { s.axis.clear(); }));

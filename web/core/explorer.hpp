@@ -54,8 +54,11 @@ class Play {
   /// Of all samples stepped, one after the other: as many numbers each as `record_names` has.
   const std::vector<double>& records() const noexcept { return records_; }
 
-  /// FNV-1a over every field of every verdict, the other rules' included, bit for bit.
+  /// FNV-1a over every field of every verdict and over whom PX4 blames, bit for bit. Not of the paper's monitor, whose
+  /// fit ends where rounding has it; what that decided is in `decisions`.
   std::uint64_t digest() const noexcept;
+  /// Over what was decided at every sample (`decisions_of`).
+  std::uint64_t decisions() const { return decisions_of(records_); }
 
  private:
   std::string begin_stations(const nlohmann::json& scene, const plumb::AxisList& axes, int n);

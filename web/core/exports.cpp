@@ -8,7 +8,7 @@ namespace {
 
 std::string text, answer;
 plumb_web::Play play;
-double digest_halves[2];
+double digest_halves[4];
 
 int answered(std::string with) {
   answer = std::move(with);
@@ -39,9 +39,11 @@ extern "C" __attribute__((export_name("plumb_records"))) const double* plumb_rec
 extern "C" __attribute__((export_name("plumb_record_count"))) std::size_t plumb_record_count() {
   return play.records().size() / plumb_web::record_names().size();
 }
-/// Two halves of 32 bits: JavaScript's numbers hold them exactly.
+/// Of the digest and of that of the decisions two halves of 32 bits: JavaScript's numbers hold them exactly.
 extern "C" __attribute__((export_name("plumb_digest"))) const double* plumb_digest() {
   digest_halves[0] = static_cast<double>(play.digest() >> 32U);
   digest_halves[1] = static_cast<double>(play.digest() & 0xffffffffU);
+  digest_halves[2] = static_cast<double>(play.decisions() >> 32U);
+  digest_halves[3] = static_cast<double>(play.decisions() & 0xffffffffU);
   return digest_halves;
 }

@@ -1,5 +1,6 @@
 // The page's core as a native program, for the tests: what it says is what the page has to say.
-//   plumb_web_native study|begin < JSON      the answer; of a scene also every record as bits, and the digest
+//   plumb_web_native study|begin < JSON      the answer; of a scene also what was decided and all that was said as two
+//   digests
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
   plumb_web::Play play;
   std::printf("%s\n", play.begin(text).c_str());
   while (play.run(1000) > 0) continue;
+  std::printf("decisions %016" PRIx64 "\n", play.decisions());
   std::printf("digest %016" PRIx64 "\n", play.digest());
   if (records) print_records(play);
   return 0;

@@ -97,7 +97,6 @@ class StationRun {
   void hash() {
     Digest digest(digest_, monitor_->array().size());
     transfer(digest, monitor_->verdict(), AnyBits{});
-    if (paper_.absent().empty()) transfer(digest, paper_.verdict(), AnyBits{});
     for (const SensorSet blamed : {px4_.selector(), px4_.voter()}) digest.scalar(blamed.bits, AnyBits{});
     digest_ = digest.sum();
   }

@@ -1,6 +1,30 @@
 #include "records.hpp"
 
+#include <cmath>
+
+#include "plumb/io/hash.hpp"
+
 namespace plumb_web {
+
+std::uint64_t decisions_of(const std::vector<double>& records) {
+  constexpr At kDecided[] = {At::state,       At::validity,       At::cause,
+                             At::decided_by,  At::in_service,     At::provisionally_excluded,
+                             At::excluded,    At::absent,         At::suspects,
+                             At::event,       At::from,           At::to,
+                             At::event_cause, At::event_sensors,  At::hypotheses,
+                             At::on_record,   At::paper_state,    At::paper_validity,
+                             At::paper_out,   At::paper_suspects, At::px4_selector,
+                             At::px4_voter,   At::px4_in_use};
+  std::uint64_t sum = plumb::io::kFnvStart;
+  for (std::size_t at = 0; at < records.size(); at += record_names().size()) {
+    for (const At one : kDecided) {
+      const double figure = records[at + static_cast<std::size_t>(one)];
+      const std::int64_t whole = std::isfinite(figure) ? static_cast<std::int64_t>(figure) : -2;  // no figure
+      sum = plumb::io::fnv1a(&whole, sizeof whole, sum);
+    }
+  }
+  return sum;
+}
 
 const std::vector<std::string>& record_names() {
   static const std::vector<std::string> names = [] {

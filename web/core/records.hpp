@@ -79,6 +79,10 @@ inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 /// What stands where in a record.
 const std::vector<std::string>& record_names();
 
+/// FNV-1a over what was decided in these records and leaves no room for a last digit: states, causes, sets, events,
+/// plumb's and the other rules'.
+std::uint64_t decisions_of(const std::vector<double>& records);
+
 /// One record; what nobody sets is no figure.
 class Record {
  public:

@@ -77,14 +77,15 @@ export class Comparison {
       const now = latest.lines[k];
       const gain = gainOf(old, now);
       const mark = gain > 0 ? "better" : gain < 0 ? "worse" : old.text === now.text ? "" : "differs";
+      const words = { better: "\u25b2\u00a0better", worse: "\u25bc\u00a0worse", differs: "differs", "": "" }[mark];
       return make("tr", { class: mark || undefined },
-        make("th", { scope: "row" }, old.words), make("td", {}, old.text), make("td", {}, now.text),
-        make("td", {}, mark === "better" ? "\u25b2\u00a0better" : mark === "worse" ? "\u25bc\u00a0worse" : mark || "same"));
+        make("th", { scope: "row" }, old.words), make("td", {}, old.text),
+        make("td", {}, now.text, words ? make("span", { class: "mark" }, words) : null));
     });
     byId("compare").replaceChildren(
       make("div", { class: "card wide", tabindex: 0, role: "region", "aria-label": "Two designs side by side" },
         make("table", { class: "compare" },
-          make("thead", {}, make("tr", {}, ...["figure", `kept: ${kept.name}`, `now: ${latest.name}`, "now is"].map((text) => make("th", { scope: "col" }, text)))),
+          make("thead", {}, make("tr", {}, ...["figure", `kept: ${kept.name}`, `now: ${latest.name}`].map((text) => make("th", { scope: "col" }, text)))),
           make("tbody", {}, ...rows))),
     );
   }

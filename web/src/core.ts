@@ -148,8 +148,17 @@ export class Core {
 
   /** Over every field of every verdict, as the native build prints it. */
   digest(): string {
-    const [high, low] = new Float64Array(this.wasm.memory.buffer, this.wasm.plumb_digest(), 2);
-    return [high, low].map((half) => half.toString(16).padStart(8, "0")).join("");
+    return this.digests()[0];
+  }
+
+  /** Over what was decided: states, causes, sets of sensors and events alone. */
+  decisions(): string {
+    return this.digests()[1];
+  }
+
+  private digests(): [string, string] {
+    const halves = [...new Float64Array(this.wasm.memory.buffer, this.wasm.plumb_digest(), 4)].map((half) => half.toString(16).padStart(8, "0"));
+    return [halves[0] + halves[1], halves[2] + halves[3]];
   }
 
   private ask(text: string): void {

@@ -8,7 +8,7 @@ import { kStateColours, Machine, stateWords } from "./machine";
 import { Rules } from "./rules";
 import { Run } from "./run";
 import { kPresets, sceneOf } from "./scenes";
-import { showSets } from "./sets";
+import { listShrinking, showSets } from "./sets";
 import { Sphere, type Direction } from "./sphere";
 import { experimentFaults, Table2 } from "./table2";
 import { drawable, Timeline, type Series } from "./timeline";
@@ -157,6 +157,7 @@ export class Break {
     this.showLanes(run);
     this.rules.show(run);
     this.listEvents(run);
+    listShrinking(run, (time_s) => this.seek(time_s));
     byId("machine-card").hidden = run.flight;
     if (this.now === 0 || this.now > this.duration) this.now = this.duration;
     this.shown = -1;

@@ -49,7 +49,7 @@ export class Rules {
     const [state, validity] = rule === "paper" ? ["paper_state", "paper_validity"] : ["state", "validity"];
     const which = run.of(k, state);
     const pill = make("span", { class: "state", style: `--state:${kStateColours[which]}` }, stateWords(words.states[which]));
-    return make("span", {}, pill, ` ${words.validities[run.of(k, validity)]}`);
+    return make("span", {}, pill, ` output ${words.validities[run.of(k, validity)]}`);
   }
 
   private blames(rule: Rule, k: number): string {

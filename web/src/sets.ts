@@ -31,6 +31,33 @@ export function showSets(run: Run, k: number): void {
   byId("sets").replaceChildren(make("p", { "aria-live": "off" }, sets + words), make("ul", { class: "sets", "aria-label": "Units" }, ...marks));
 }
 
+/** Most steps that are listed. */
+const kSteps = 10;
+
+/** Every time that an attitude took explanations away: who could still be the faulty one. */
+export function listShrinking(run: Run, seek: (time_s: number) => void): void {
+  const chips = run.scene.chips;
+  const units = unitsOf(chips);
+  const items: HTMLElement[] = [];
+  let before = "";
+  for (let k = 0; k < run.count && items.length < kSteps; ++k) {
+    const least = run.flight ? run.of(k, "hypotheses") : leastFaults(run, k);
+    const suspects = run.of(k, "suspects");
+    const sets = run.flight ? 0 : run.of(k, "hypotheses");
+    const now = least > 0 && (suspects || least === kNone) ? `${least} ${suspects} ${sets}` : "";
+    if (now !== before && now) {
+      const named = units.filter((unit) => unit & suspects).map((unit) => unitWords(chips, unit));
+      const who = least === kNone ? "nothing that can be searched for" : `${least > 1 ? `${least} faults, of ` : ""}${named.join(" or ")}${named.length === 1 ? " alone" : ""}`;
+      const time_s = run.of(k, "time_s");
+      items.push(make("li", {}, make("button", { type: "button", class: "link", onclick: () => seek(time_s) }, `${time_s.toFixed(run.flight ? 3 : 2)} s: ${who}${run.flight ? "" : `, ${sets} of ${mostSets(run)} sets left`}`)));
+    }
+    before = now;
+  }
+  byId("shrink-head").hidden = items.length === 0;
+  byId("shrink").hidden = items.length === 0;
+  byId("shrink").replaceChildren(...items);
+}
+
 function leastFaults(run: Run, k: number): number {
   const out = run.of(k, "excluded") | run.of(k, "provisionally_excluded") | run.of(k, "absent");
   const monitored = run.scene.axes.map((_, i) => i).filter((i) => !((out >> i) & 1));
