@@ -9,10 +9,10 @@ export const kRight = 14;
 /** One number a sample; sets of sensors as bits. */
 export interface LaneData {
   sensors: number;
-  time: number[];
-  state: number[];
+  time: ArrayLike<number>;
+  state: ArrayLike<number>;
   /** In the order of `kLanes`; empty where a rule is not there. */
-  sets: number[][];
+  sets: ArrayLike<number>[];
 }
 
 /** Who says it, its colour, and how strongly it is drawn. */
@@ -36,6 +36,7 @@ export class Lanes {
   private readonly labels = make("div", { class: "lane-labels", "aria-hidden": "true" });
   private data: LaneData | null = null;
   private duration = 1;
+  private now = 0;
 
   constructor(seek: (time_s: number) => void) {
     const legend = make("ul", { class: "legend" }, ...kLanes.map(([words, colour, strength]) =>
@@ -54,12 +55,13 @@ export class Lanes {
     this.duration = duration;
     this.labels.replaceChildren(make("span", { style: `height:${kBand}px` }, "state"),
       ...Array.from({ length: data.sensors }, (_, i) => make("span", { style: `height:${kRow}px` }, `a${i + 1}`)));
-    const ever = kLanes.map(([words], k) => `${words}: ${sensorsOf((data.sets[k] ?? []).reduce((all, bits) => all | bits, 0))}`);
+    const ever = kLanes.map(([words], k) => `${words}: ${sensorsOf(union(data.sets[k]))}`);
     this.canvas.setAttribute("aria-label", `The state and every sensor over time. ${ever.join("; ")}. The table below says more.`);
     this.draw();
   }
 
   cursor(time_s: number): void {
+    this.now = time_s;
     this.mark.style.transform = `translateX(${((this.canvas.clientWidth * time_s) / this.duration).toFixed(1)}px)`;
   }
 
@@ -90,11 +92,18 @@ export class Lanes {
       }
     });
     context.globalAlpha = 1;
+    this.cursor(this.now);
   }
 }
 
+function union(list: ArrayLike<number>): number {
+  let all = 0;
+  for (let k = 0; k < list.length; ++k) all |= list[k];
+  return all;
+}
+
 /** Calls back for each run of equal values that are not zero. */
-function runs(list: number[], f: (x: number) => number, found: (from: number, to: number, value: number) => void): void {
+function runs(list: ArrayLike<number>, f: (x: number) => number, found: (from: number, to: number, value: number) => void): void {
   let from = 0;
   for (let k = 1; k <= list.length; ++k) {
     const value = f(list[from]);

@@ -51,7 +51,7 @@ export class Break {
   ) {
     this.machine = new Machine(core.words);
     this.rules = new Rules(core);
-    this.table2 = new Table2(core, (row) => this.experiment(row));
+    this.table2 = new Table2(core, (row) => this.experiment(row), () => this.hold());
     this.faults = new FaultList(byId("faults"), core.words.catalogue, () => this.later());
     this.scene = sceneOf({ axes: [], chips: [], noise_mps2: 0 }, {});
     byId("direction").append(this.sphere.element);
@@ -122,12 +122,18 @@ export class Break {
     this.waiting = window.setTimeout(() => this.restart(), 60);
   }
 
-  private restart(): void {
+  /** Steps and shows nothing until the next start. */
+  private hold(): void {
     clearTimeout(this.waiting);
     cancelAnimationFrame(this.frame);
+    document.body.dataset.run = "stepping";
+  }
+
+  private restart(): void {
+    this.hold();
+    this.table2.stop();
     this.scene.faults = onSensors(this.faults.faults.map(faultText), this.scene.chips);
     const problem = byId("break-error");
-    document.body.dataset.run = "stepping";
     try {
       const begun = this.core.begin(this.scene);
       problem.hidden = true;
@@ -153,11 +159,24 @@ export class Break {
     this.run = run;
     this.duration = begun.duration_s;
     this.scrub.max = String(begun.duration_s);
-    this.timeline.show(this.series(run), begun.duration_s);
-    this.showLanes(run);
-    this.rules.show(run);
-    this.listEvents(run);
-    listShrinking(run, (time_s) => this.seek(time_s));
+    const steps = [
+      () => this.timeline.show(this.series(run), begun.duration_s),
+      () => this.showLanes(run),
+      () => this.rules.show(run),
+      () => this.listEvents(run),
+      () => listShrinking(run, (time_s) => this.seek(time_s)),
+      () => this.reveal(run),
+    ];
+    this.frame = requestAnimationFrame(() => this.present(steps, 0));
+  }
+
+  /** One picture a frame, so that none is held up. */
+  private present(steps: (() => void)[], at: number): void {
+    steps[at]();
+    if (at + 1 < steps.length) this.frame = requestAnimationFrame(() => this.present(steps, at + 1));
+  }
+
+  private reveal(run: Run): void {
     byId("machine-card").hidden = run.flight;
     if (this.now === 0 || this.now > this.duration) this.now = this.duration;
     this.shown = -1;
@@ -167,32 +186,22 @@ export class Break {
   }
 
   private series(run: Run): Series {
+    const of = (name: string, f: (x: number) => number | null): (number | null)[] => Array.from(run.column(name), f);
     const some = (x: number): number | null => (x > 0 && Number.isFinite(x) ? x : null); // for a logarithm
-    const angle = (x: number): number | null => drawable(degrees(x));
-    const of = run.flight ? drawable : angle;
-    const off = (["plain", "paper", "px4", "plumb"] as const).map((rule) => (run.has(rule) ? run.column(run.errorName(rule), of) : []));
+    const size = run.flight ? drawable : (x: number) => drawable(degrees(x));
+    const off = (["plain", "paper", "px4", "plumb"] as const).map((rule) => (run.has(rule) ? of(run.errorName(rule), size) : []));
     return {
-      time: run.column("time_s", (x) => x),
-      test: run.flight ? null : [run.column("statistic", some), run.column("limit", some)],
-      off: [...off, run.column(run.flight ? "force_bound_mps2" : "protection_rad", of)],
+      time: run.column("time_s"),
+      test: run.flight ? null : [of("statistic", some), of("limit", some)],
+      off: [...off, of(run.flight ? "force_bound_mps2" : "protection_rad", size)],
       unit: run.flight ? "m/s\u00b2" : "deg",
     };
   }
 
   private showLanes(run: Run): void {
-    const each = (f: (k: number) => number): number[] => Array.from({ length: run.count }, (_, k) => f(k));
-    this.lanes.show({
-      sensors: run.scene.axes.length,
-      time: run.column("time_s", (x) => x),
-      state: run.column("state", (x) => x),
-      sets: [
-        run.column("faulty", (x) => x),
-        run.column("suspects", (x) => x),
-        each((k) => run.blamed("plumb", k)),
-        run.has("paper") ? each((k) => run.blamed("paper", k)) : [],
-        run.has("px4") ? each((k) => run.blamed("px4", k)) : [],
-      ],
-    }, this.duration);
+    const [time, state, faulty, suspects] = ["time_s", "state", "faulty", "suspects"].map((name) => run.column(name));
+    const sets = [faulty, suspects, run.blamed("plumb"), run.blamed("paper"), run.blamed("px4")];
+    this.lanes.show({ sensors: run.scene.axes.length, time, state, sets }, this.duration);
   }
 
   private toggle(): void {

@@ -14,6 +14,7 @@ const kRules: [Rule, string][] = [
 export class Rules {
   private run: Run | null = null;
   private scores = new Map<Rule, Score>();
+  private blamed = new Map<Rule, Int32Array>();
   private now: HTMLElement[][] = [];
 
   constructor(private readonly core: Core) {}
@@ -21,6 +22,7 @@ export class Rules {
   show(run: Run): void {
     this.run = run;
     this.scores = new Map(kRules.filter(([rule]) => run.has(rule)).map(([rule]) => [rule, run.score(rule)]));
+    this.blamed = new Map(kRules.map(([rule]) => [rule, run.blamed(rule)]));
     this.now = kRules.map(() => ["says", "blames", "off"].map(() => make("span")));
     const rows = kRules.map(([rule, words], r) => [words, ...this.now[r], ...this.summary(rule)]);
     byId("rules").replaceChildren(
@@ -54,7 +56,7 @@ export class Rules {
 
   private blames(rule: Rule, k: number): string {
     const run = this.run!;
-    const blamed = run.blamed(rule, k);
+    const blamed = this.blamed.get(rule)?.[k] ?? 0;
     const suspects = rule === "plumb" ? run.of(k, "suspects") : rule === "paper" ? run.of(k, "paper_suspects") : 0;
     if (blamed) return sensorsOf(blamed);
     return suspects ? `suspects ${sensorsOf(suspects)}` : "nobody";

@@ -20,6 +20,7 @@ export type Rule = "plumb" | "paper" | "px4" | "plain";
 export class Run {
   readonly flight: boolean;
   private readonly width: number;
+  private readonly columns = new Map<string, Float64Array>();
 
   constructor(
     private readonly core: Core,
@@ -39,9 +40,16 @@ export class Run {
     return this.records[k * this.width + this.core.at[name]];
   }
 
-  column<T>(name: string, f: (x: number) => T): T[] {
-    const at = this.core.at[name];
-    return Array.from({ length: this.count }, (_, k) => f(this.records[k * this.width + at]));
+  /** All figures of a name, one a sample. */
+  column(name: string): Float64Array {
+    let out = this.columns.get(name);
+    if (!out) {
+      out = new Float64Array(this.count);
+      const at = this.core.at[name];
+      for (let k = 0; k < out.length; ++k) out[k] = this.records[k * this.width + at];
+      this.columns.set(name, out);
+    }
+    return out;
   }
 
   has(rule: Rule): boolean {
@@ -49,11 +57,12 @@ export class Run {
     return rule !== "px4" || this.begun.px4_units.length > 0;
   }
 
-  /** Bits of the sensors that a rule holds for faulty at sample k. */
-  blamed(rule: Rule, k: number): number {
-    if (rule === "plumb") return this.of(k, "excluded") | this.of(k, "provisionally_excluded");
-    if (rule === "paper") return this.of(k, "paper_out") | 0;
-    return rule === "px4" ? this.of(k, "px4_selector") | this.of(k, "px4_voter") : 0;
+  /** Bits of the sensors that a rule holds for faulty, one set a sample. */
+  blamed(rule: Rule): Int32Array {
+    const names = { plumb: ["excluded", "provisionally_excluded"], paper: ["paper_out"], px4: ["px4_selector", "px4_voter"], plain: [] }[rule];
+    const out = new Int32Array(this.count);
+    for (const name of this.has(rule) ? names : []) this.column(name).forEach((bits, k) => (out[k] |= bits));
+    return out;
   }
 
   /** Name of the error of a rule's output. */
@@ -62,11 +71,11 @@ export class Run {
     return { plumb: "error_rad", paper: "paper_error_rad", px4: "px4_error_rad", plain: "plain_rad" }[rule];
   }
 
-  /** Whether a rule takes its output of sample k for good. */
-  trusts(rule: Rule, k: number): boolean {
-    const valid = this.core.words.validities.length - 1;
-    if (rule === "plumb") return this.of(k, "validity") === (this.flight ? this.core.words.flight_validities.length - 1 : valid);
-    return rule !== "paper" || this.of(k, "paper_validity") === valid;
+  /** The validity from which on a rule takes its output for good, and where it stands; null: always. */
+  private trusted(rule: Rule): [string, number] | null {
+    const { validities, flight_validities } = this.core.words;
+    if (rule === "plumb") return ["validity", (this.flight ? flight_validities : validities).length - 1];
+    return rule === "paper" ? ["paper_validity", validities.length - 1] : null;
   }
 
   /** Whom a rule may blame: units as it knows them, with a faulty member. */
@@ -77,24 +86,31 @@ export class Run {
 
   score(rule: Rule): Score {
     const out: Score = { right_s: NaN, wrong: 0, worst: NaN, bound: NaN };
-    let faulty = 0;
+    const [time, faulty, blamed, error] = [this.column("time_s"), this.column("faulty"), this.blamed(rule), this.column(this.errorName(rule))];
+    const trusted = this.trusted(rule);
+    const validity = trusted ? this.column(trusted[0]) : null;
+    let ever = 0;
+    let may = 0;
+    let worst = -1;
     for (let k = 0; k < this.count; ++k) {
-      faulty |= this.of(k, "faulty");
-      const may = this.mayBlame(rule, faulty);
-      const blamed = this.blamed(rule, k);
-      if (blamed & may && Number.isNaN(out.right_s)) out.right_s = this.of(k, "time_s");
-      out.wrong |= blamed & ~may;
-      const error = this.of(k, this.errorName(rule));
-      if (!this.trusts(rule, k) || error <= out.worst || !Number.isFinite(error)) continue;
-      out.worst = error;
-      if (rule === "plumb") out.bound = this.of(k, this.flight ? "force_bound_mps2" : "protection_rad");
+      if (faulty[k] & ~ever) {
+        ever |= faulty[k];
+        may = this.mayBlame(rule, ever);
+      }
+      if (blamed[k] & may && Number.isNaN(out.right_s)) out.right_s = time[k];
+      out.wrong |= blamed[k] & ~may;
+      if (validity && validity[k] !== trusted![1]) continue;
+      if (error[k] > (worst < 0 ? -1 : error[worst])) worst = k;
     }
+    if (worst < 0) return out;
+    out.worst = error[worst];
+    if (rule === "plumb") out.bound = this.of(worst, this.flight ? "force_bound_mps2" : "protection_rad");
     return out;
   }
 
   /** When the first sensor failed; NaN: never. */
   onset_s(): number {
-    for (let k = 0; k < this.count; ++k) if (this.of(k, "faulty")) return this.of(k, "time_s");
-    return NaN;
+    const first = this.column("faulty").findIndex((bits) => bits !== 0);
+    return first < 0 ? NaN : this.of(first, "time_s");
   }
 }

@@ -40,7 +40,9 @@ export function listShrinking(run: Run, seek: (time_s: number) => void): void {
   const units = unitsOf(chips);
   const items: HTMLElement[] = [];
   let before = "";
+  const [tick, event] = [run.column("tick"), run.column("event")];
   for (let k = 0; k < run.count && items.length < kSteps; ++k) {
+    if (tick[k] === 0 && event[k] < 0) continue; // between two blocks nothing is decided; a flight has no ticks
     const least = run.flight ? run.of(k, "hypotheses") : leastFaults(run, k);
     const suspects = run.of(k, "suspects");
     const sets = run.flight ? 0 : run.of(k, "hypotheses");
@@ -67,7 +69,7 @@ function leastFaults(run: Run, k: number): number {
 let counted: Run | null = null;
 let most = 0;
 function mostSets(run: Run): number {
-  if (counted !== run) most = Math.max(...run.column("hypotheses", (x) => x));
+  if (counted !== run) most = run.column("hypotheses").reduce((a, b) => Math.max(a, b), 0);
   counted = run;
   return most;
 }

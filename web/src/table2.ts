@@ -21,19 +21,14 @@ export function experimentScene(geometry: Pick<Geometry, "axes" | "chips" | "noi
 function outcome(core: Core, run: Run, row: Table2Row): string[] {
   const end = run.count - 1;
   const who = (bits: number) => (bits ? sensorsOf(bits) : "-");
-  let paper = 0;
-  let px4 = 0;
-  for (let k = 0; k < run.count; ++k) {
-    paper |= run.blamed("paper", k);
-    px4 |= run.blamed("px4", k);
-  }
-  const plumb = run.blamed("plumb", end);
+  const ever = (list: Int32Array) => list.reduce((all, bits) => all | bits, 0);
+  const plumb = run.blamed("plumb")[end];
   const state = stateWords(core.words.states[run.of(end, "state")]);
   return [
     who(row.isolated),
-    who(paper),
+    who(ever(run.blamed("paper"))),
     plumb ? who(plumb) : row.faulty ? `- (${state})` : "-",
-    who(px4),
+    who(ever(run.blamed("px4"))),
     plumb === row.faulty ? "right" : plumb & ~row.faulty ? "blames a healthy one" : "withheld",
   ];
 }
@@ -41,13 +36,23 @@ function outcome(core: Core, run: Run, row: Table2Row): string[] {
 export class Table2 {
   private chosen = 2;
   private playing = 0;
+  private frame = 0;
   private done = new Map<number, string[]>();
 
-  /** `choose`: play this experiment in the view. */
+  /** `choose`: play this experiment in the view; `hold`: step nothing meanwhile, for there is one core. */
   constructor(
     private readonly core: Core,
     private readonly choose: (row: Table2Row) => void,
+    private readonly hold: () => void,
   ) {}
+
+  /** The view steps something else. */
+  stop(): void {
+    if (this.playing === 0) return;
+    cancelAnimationFrame(this.frame);
+    this.playing = 0;
+    this.draw();
+  }
 
   show(on: boolean): void {
     byId("table2").hidden = !on;
@@ -86,10 +91,9 @@ export class Table2 {
     const shape = { axes: this.core.builtin("paper-tetrahedron"), chips: [0, 0, 0, 0], noise_mps2: 2e-4 * 9.80665 };
     const rows = this.core.words.table2;
     const next = (k: number) => {
-      if (k === rows.length || byId("table2").hidden) {
-        this.playing = 0;
-        this.draw();
-        if (!byId("table2").hidden) this.choose(rows[this.chosen - 1]);
+      if (k === rows.length) {
+        this.stop();
+        this.choose(rows[this.chosen - 1]);
         return;
       }
       this.playing = k + 1;
@@ -98,11 +102,11 @@ export class Table2 {
       while (this.core.run(1000) > 0) continue;
       this.done.set(rows[k].number, outcome(this.core, new Run(this.core, scene, begun, this.core.records()), rows[k]));
       this.draw();
-      requestAnimationFrame(() => next(k + 1));
+      this.frame = requestAnimationFrame(() => next(k + 1));
     };
     this.playing = 1;
     this.draw();
-    document.body.dataset.run = "stepping";
-    requestAnimationFrame(() => next(0));
+    this.hold();
+    this.frame = requestAnimationFrame(() => next(0));
   }
 }

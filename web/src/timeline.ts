@@ -5,10 +5,10 @@ import { kLeft, kRight } from "./lanes";
 import { kStateColours } from "./machine";
 
 /** Null where there is no figure. */
-type Figures = (number | null)[];
+type Figures = ArrayLike<number | null>;
 
 export interface Series {
-  time: number[];
+  time: ArrayLike<number>;
   /** Statistic and limit of the test that decided; none in a flight. */
   test: Figures[] | null;
   /** In the order of `kOff`. */
