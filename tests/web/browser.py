@@ -270,8 +270,11 @@ def check_rules(page):
 def check_looks(page, shots):
     axe = (pathlib.Path(page.source) / "web/node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
     page.browser.execute_script(axe)
-    for view in ("design", "break"):
-        page.tab(view)
+    for view in ("design", "break", "table2", "flight"):
+        page.tab("design" if view == "design" else "break")
+        if view in ("table2", "flight"):
+            page.choose("preset", view)
+            page.settle()
         for name, width in WIDTHS.items():
             for dark in (False, True):
                 page.view(width, dark)
