@@ -1,6 +1,6 @@
 // stories.mjs NATIVE CORE.wasm: the core in WebAssembly against the same code as a native program: digests over every field of every
-// verdict, the other rules' included, of every story of the page, every experiment of Table 2 and every kind of flight, and what is
-// said of every built-in geometry. Says what a step costs in processor time.
+// verdict and over every decision, the other rules' included, of every story of the page, every experiment of Table 2, every kind of
+// flight and three tools of every geometry; and what is said of every built-in geometry. Says what a step costs in processor time.
 import { build } from "esbuild";
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
