@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "plumb/io/exact_text.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/records.hpp"
 #include "plumb/io/scenario_file.hpp"
@@ -19,17 +20,8 @@ std::string quoted(const std::string& text) {
   return out;
 }
 
-/// `"20 mg0"`: the shortest of the texts that read back as the identical value. The last unit must be the SI
-/// unit, whose factor of 1 makes it always exact.
 std::string exact(Quantity quantity, double si, std::initializer_list<const char*> units) {
-  std::string best;
-  for (const char* unit : units) {
-    const FileExpected<std::string> text = format_quantity(quantity, si, unit);
-    if (!text) continue;
-    const FileExpected<double> back = parse_quantity(quantity, *text);
-    if (back && *back == si && (best.empty() || text->size() < best.size())) best = *text;
-  }
-  return "\"" + best + "\"";
+  return "\"" + exact_text(quantity, si, units) + "\"";
 }
 
 std::string acceleration(double mps2) { return exact(Quantity::acceleration, mps2, {"mg0", "g0", "m/s^2"}); }

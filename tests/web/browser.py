@@ -267,6 +267,53 @@ def check_rules(page):
     assert plumb[2] == "a2" and plumb[5] == "no" and paper[1] != "not there" and plain[5] == "no", (plumb, paper, plain)
 
 
+def check_share(page, file):
+    """The address holds the scene: another window with it shows the same page."""
+    page.tab("design")
+    page.choose("geometry", "cone:5")
+    box = page.browser.find_elements(By.CSS_SELECTOR, "#axes input")[4]
+    box.send_keys(Keys.CONTROL, "a")
+    box.send_keys("0.37")
+    page.tab("break")
+    page.choose("preset", "drift")
+    page.choose("tool", "design")
+    page.browser.find_element(By.ID, "add-fault").click()
+    page.settle()
+    page.browser.execute_script("const s = document.getElementById('scrub'); s.value = 21.5; s.dispatchEvent(new Event('input'))")
+    shown = ("[JSON.stringify(window.plumb.design.geometry), JSON.stringify(window.plumb.second.scene), document.body.dataset.run, "
+             "document.getElementById('time').textContent, document.querySelector('[role=tab][aria-selected=true]').id, "
+             "document.getElementById('verdict').textContent, document.getElementById('tool').value]")
+    digest = page.check_run()
+    before = page.script(shown)
+    assert before[3] == "21.5 s", before
+    page.wait("location.hash === window.plumb.share.fragment() && location.hash.length > 20")
+    address = page.script("location.href")
+    page.browser.get("about:blank")
+    page.browser.get(address)
+    page.wait("document.body.dataset.ready === 'yes'")
+    assert page.check_run() == digest
+    assert page.script(shown) == before, (page.script(shown), before)
+    # Pasted into a page that is open; and what holds no scene is refused, with a remedy, and the page goes on.
+    page.browser.execute_script("location.hash = '#design'")
+    page.wait("!document.getElementById('view-design').hidden")
+    for bad in ("#break=e30x", "#break=" + base64.urlsafe_b64encode(b'{"run":{"story":"none"}}').decode().rstrip("="),
+                "#break=" + base64.urlsafe_b64encode(b'{"design":{"axes":[[1,2]],"noise_mps2":1}}').decode().rstrip("=")):
+        page.browser.execute_script("location.hash = arguments[0]", bad)
+        page.wait("!document.getElementById('share-error').hidden")
+        assert "emedy" in page.script("document.getElementById('share-error').textContent")
+    page.choose("preset", "healthy")
+    assert page.check_run() != digest
+    scene = address[address.index("#"):]
+    page.wait(f"location.hash === window.plumb.share.fragment() && location.hash !== '{scene}'")
+    page.browser.execute_script("location.hash = arguments[0]", scene)
+    page.wait("document.getElementById('share-error').hidden")
+    assert page.check_run() == digest
+    page.browser.find_element(By.ID, "copy-address").click()
+    page.wait("document.getElementById('share-told').textContent.length > 0")
+    assert set(page.script("Object.keys(window.plumb.second.files())")) == {"array.toml", "stand.toml", "run.toml", "play.sh"}
+    page.check_silence(file)
+
+
 def check_looks(page, shots):
     axe = (pathlib.Path(page.source) / "web/node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
     page.browser.execute_script(axe)
@@ -317,6 +364,7 @@ def main(native, source, shots=None):
         check_break(page)
         page.check_silence((built / "explorer.html").resolve())
         print(f"{page.runs} runs, every decision and every bit of every verdict as the native core's")
+        check_share(page, (built / "explorer.html").resolve())
         check_looks(page, shots)
         page.check_silence((built / "explorer.html").resolve())
     finally:

@@ -12,5 +12,5 @@ cmp -s "$source/web/package-lock.json" "$source/web/node_modules/.plumb-lock" ||
 
 work="$source/build/web"
 mkdir -p "$work"
-"$source/scripts/web" >"$work/page_build.log" 2>&1 || { tail -n 20 "$work/page_build.log" >&2; fail "scripts/web failed"; }
+"$source/scripts/web" --core >"$work/core_build.log" 2>&1 || { tail -n 20 "$work/core_build.log" >&2; fail "scripts/web failed"; }
 exec node "$source/web/stories.mjs" "$native" "$work/core/plumb_web.wasm"

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "plumb/scenario/scenario.hpp"
+
 #include "plumb/array/named.hpp"
 #include "records.hpp"
 
@@ -51,6 +53,10 @@ class Play {
   /// Steps at most so many samples and keeps a record of each; 0 at the end.
   int run(int samples);
 
+  /// The scene that began last as files for the tool, by name: `array.toml`, `stand.toml`, `run.toml` and `play.sh`, which
+  /// plays them and says the same verdicts. Or a refusal.
+  std::string files() const;
+
   /// Of all samples stepped, one after the other: as many numbers each as `record_names` has.
   const std::vector<double>& records() const noexcept { return records_; }
 
@@ -64,8 +70,13 @@ class Play {
   std::string begin_stations(const nlohmann::json& scene, const plumb::AxisList& axes, int n);
   std::string begin_flight(const nlohmann::json& scene, const plumb::AxisList& axes, int n);
 
+  /// Of a run from station to station; null of a flight.
+  const plumb::scenario::Simulator* world() const noexcept;
+
   std::unique_ptr<StationRun> stations_;
   std::unique_ptr<FlightRun> flight_;
+  std::uint64_t stand_seed_ = 1;
+  std::vector<std::string> requests_;
   std::vector<double> records_;
 };
 

@@ -33,6 +33,7 @@ extern "C" __attribute__((export_name("plumb_builtin"))) int plumb_builtin() {
 }
 extern "C" __attribute__((export_name("plumb_study"))) int plumb_study() { return answered(plumb_web::study(text)); }
 extern "C" __attribute__((export_name("plumb_begin"))) int plumb_begin() { return answered(play.begin(text)); }
+extern "C" __attribute__((export_name("plumb_files"))) int plumb_files() { return answered(play.files()); }
 
 extern "C" __attribute__((export_name("plumb_run"))) int plumb_run(int samples) { return play.run(samples); }
 extern "C" __attribute__((export_name("plumb_records"))) const double* plumb_records() { return play.records().data(); }

@@ -1,6 +1,7 @@
 // The page's core as a native program, for the tests: what it says is what the page has to say.
 //   plumb_web_native study|begin < JSON      the answer; of a scene also what was decided and all that was said as two
 //   digests
+//   plumb_web_native files < JSON            the files of that scene
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
@@ -31,12 +32,14 @@ int main(int argc, char** argv) {
   const std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
   if (what == "builtin") return std::printf("%s\n", plumb_web::builtin_axes(text).c_str()) < 0;
   if (what == "study") return std::printf("%s\n", plumb_web::study(text).c_str()) < 0;
-  if (what != "begin") {
-    std::fprintf(stderr, "usage: plumb_web_native vocabulary | builtin | study | begin [--records]  < TEXT\n");
+  if (what != "begin" && what != "files") {
+    std::fprintf(stderr, "usage: plumb_web_native vocabulary | builtin | study | files | begin [--records]  < TEXT\n");
     return 2;
   }
   plumb_web::Play play;
-  std::printf("%s\n", play.begin(text).c_str());
+  const std::string begun = play.begin(text);
+  std::printf("%s\n", what == "files" ? play.files().c_str() : begun.c_str());
+  if (what == "files") return 0;
   while (play.run(1000) > 0) continue;
   std::printf("decisions %016" PRIx64 "\n", play.decisions());
   std::printf("digest %016" PRIx64 "\n", play.digest());

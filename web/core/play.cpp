@@ -188,6 +188,8 @@ void StationRun::tell_rivals(Record& record) const {
 Play::Play() = default;
 Play::~Play() = default;
 
+const scenario::Simulator* Play::world() const noexcept { return stations_ ? &stations_->simulator() : nullptr; }
+
 std::string Play::begin(const std::string& scene_text) {
   stations_.reset();
   flight_.reset();
@@ -207,7 +209,9 @@ std::string Play::begin_stations(const json& scene, const AxisList& axes, int n)
   const Expected<SensorArray> nominal = datasheet.array();
   if (!nominal) return refused(nominal.error());
   const scenario::Tool tool = scenario::draw_tool(datasheet, seed_of(scene, "truth_seed", 1.0));
-  const std::vector<Station> stations = stations_of(tool, *nominal, gravity, seed_of(scene, "stand_seed", 1.0));
+  stand_seed_ = seed_of(scene, "stand_seed", 1.0);
+  requests_ = texts(scene, "requests");
+  const std::vector<Station> stations = stations_of(tool, *nominal, gravity, stand_seed_);
   const auto fit = calibrate(datasheet, gravity, stations.data(), static_cast<int>(stations.size()));
   if (!fit) return refused(fit.error());
   scenario::Scenario world = world_of(scene, tool);

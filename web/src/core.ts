@@ -84,6 +84,7 @@ interface Exports {
   plumb_builtin(): number;
   plumb_study(): number;
   plumb_begin(): number;
+  plumb_files(): number;
   plumb_run(samples: number): number;
   plumb_records(): number;
   plumb_record_count(): number;
@@ -133,6 +134,11 @@ export class Core {
   begin(scene: Scene): Begun {
     this.ask(JSON.stringify(scene));
     return this.told(this.wasm.plumb_begin());
+  }
+
+  /** The scene that began last as files of the tool, by name. */
+  files(): Record<string, string> {
+    return this.told(this.wasm.plumb_files());
   }
 
   /** Steps at most so many samples; 0 at the end. */

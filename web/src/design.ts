@@ -44,6 +44,18 @@ export class Design {
     this.show();
   }
 
+  /** What another page of this explorer had. */
+  restore(geometry: Geometry): void {
+    const axes = geometry.axes;
+    const sound = axes.length >= 3 && axes.length <= this.core.words.capacity && axes.every((axis) => axis.length === 3 && axis.every(Number.isFinite));
+    if (!sound || !(geometry.noise_mps2 > 0)) throw new Error("this is no geometry");
+    this.geometry = geometry;
+    const known = [...byId<HTMLSelectElement>("geometry").options].some((option) => option.value === geometry.name);
+    byId<HTMLSelectElement>("geometry").value = known ? geometry.name : "own";
+    byId<HTMLInputElement>("noise").value = String(Number(((geometry.noise_mps2 * 1e6) / kG0).toPrecision(12)));
+    this.show();
+  }
+
   /** The array file of these axes, as the tool reads it: sensors of the paper's kind. */
   arrayFile(): string {
     const head = `name = "${this.fileName()}"

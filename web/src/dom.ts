@@ -65,8 +65,8 @@ export function table(label: string, head: string[], rows: Child[][]): HTMLEleme
 }
 
 /** A file for the user to keep; nothing leaves the machine. */
-export function download(name: string, text: string, type = "text/plain"): void {
-  const link = make("a", { href: URL.createObjectURL(new Blob([text], { type })), download: name });
+export function download(name: string, content: BlobPart, type = "text/plain"): void {
+  const link = make("a", { href: URL.createObjectURL(new Blob([content], { type })), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }

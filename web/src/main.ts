@@ -2,19 +2,16 @@ import { Core } from "./core";
 import { Break } from "./play";
 import { Design } from "./design";
 import { byId, make } from "./dom";
+import { unpacked } from "./packed";
+import { Share } from "./share";
 
 declare global {
   /** The core, packed: put into the page beside this script. */
   const PLUMB_CORE: string;
 }
 
-async function unpacked(text: string): Promise<ArrayBuffer> {
-  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-}
-
-/** Tabs as the reader of a screen expects them: arrows move, one tab stop. */
-function connectTabs(): void {
+/** Tabs as the reader of a screen expects them: arrows move, one tab stop. Returns what shows a view by its name. */
+function connectTabs(changed: () => void): (view: string) => void {
   const tabs = [...document.querySelectorAll<HTMLButtonElement>("[role=tab]")];
   const choose = (tab: HTMLButtonElement, focus: boolean) => {
     for (const one of tabs) {
@@ -24,7 +21,7 @@ function connectTabs(): void {
       byId(one.getAttribute("aria-controls")!).hidden = !chosen;
     }
     if (focus) tab.focus();
-    history.replaceState(null, "", `#${tab.dataset.view}`);
+    changed();
   };
   tabs.forEach((tab, k) => {
     tab.addEventListener("click", () => choose(tab, false));
@@ -33,19 +30,27 @@ function connectTabs(): void {
       if (step) choose(tabs[(k + step + tabs.length) % tabs.length], true);
     });
   });
-  const asked = tabs.find((tab) => `#${tab.dataset.view}` === location.hash);
-  if (asked) choose(asked, false);
+  return (view) => {
+    const asked = tabs.find((tab) => tab.dataset.view === view);
+    if (asked) choose(asked, false);
+  };
 }
 
 async function start(): Promise<void> {
-  connectTabs();
+  let share: Share | null = null;
+  const changed = () => share?.changed();
+  const show = connectTabs(changed);
   const core = await Core.load(await unpacked(PLUMB_CORE));
   let second: Break | null = null;
-  const design = new Design(core, () => second?.redesigned());
-  second = new Break(core, () => design.geometry);
+  const design = new Design(core, () => {
+    second?.redesigned();
+    changed();
+  });
+  second = new Break(core, () => design.geometry, changed);
+  share = new Share(design, second, show);
   document.body.dataset.ready = "yes";
   // What the tests ask of the page.
-  Object.assign(window, { plumb: { core, design, second } });
+  Object.assign(window, { plumb: { core, design, second, share } });
 }
 
 start().catch((error: Error) => {

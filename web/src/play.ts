@@ -26,6 +26,16 @@ const kMotions: [Motion, string][] = [
   ["launch", "Flight: launcher"],
 ];
 
+/** What the address of the page keeps of this view. */
+export interface SharedRun {
+  story: string;
+  tool: string;
+  motion: Motion;
+  faults: string[];
+  /** 0: the end */
+  time_s: number;
+}
+
 export class Break {
   private readonly machine: Machine;
   private readonly timeline = new Timeline((time_s) => this.seek(time_s));
@@ -48,6 +58,7 @@ export class Break {
   constructor(
     private readonly core: Core,
     private readonly designed: () => Geometry,
+    private readonly changed: () => void,
   ) {
     this.machine = new Machine(core.words);
     this.rules = new Rules(core);
@@ -71,6 +82,30 @@ export class Break {
   /** The geometry of the first view has changed. */
   redesigned(): void {
     if (byId<HTMLSelectElement>("tool").value === "design") this.retool();
+  }
+
+  shared(): SharedRun {
+    return { story: this.preset.id, tool: byId<HTMLSelectElement>("tool").value, motion: this.scene.motion, faults: this.faults.faults.map(faultText), time_s: this.now < this.duration ? this.now : 0 };
+  }
+
+  restore(run: Partial<SharedRun>): void {
+    const story = run.story ?? this.preset.id;
+    if (!kPresets.some((one) => one.id === story)) throw new Error(`there is no story ${story}`);
+    byId<HTMLSelectElement>("preset").value = story;
+    this.choose(story);
+    byId<HTMLSelectElement>("tool").value = run.tool ?? "preset";
+    this.retool();
+    if (run.motion) {
+      byId<HTMLSelectElement>("motion").value = run.motion;
+      this.move(run.motion);
+    }
+    this.now = run.time_s ?? 0;
+    if (run.faults) this.setFaults(run.faults.map(parseFault));
+  }
+
+  /** The scene as files of the tool. */
+  files(): Record<string, string> {
+    return this.core.files();
   }
 
   choose(id: string): void {
@@ -182,6 +217,7 @@ export class Break {
     this.shown = -1;
     this.showNow();
     document.body.dataset.run = this.core.digest();
+    this.changed();
     if (this.playing) this.frame = requestAnimationFrame((at) => this.tick(at, at));
   }
 
@@ -207,6 +243,7 @@ export class Break {
   private toggle(): void {
     this.playing = !this.playing;
     byId("play").textContent = this.playing ? "Pause" : "Play";
+    this.changed();
     if (!this.playing || !this.run) return;
     if (this.now >= this.duration) this.now = 0;
     this.frame = requestAnimationFrame((at) => this.tick(at, at));
@@ -226,6 +263,7 @@ export class Break {
   private seek(time_s: number): void {
     this.now = Math.max(0, Math.min(time_s, this.duration));
     this.showNow();
+    this.changed();
   }
 
   /** The last sample at or before the time that is shown. */
