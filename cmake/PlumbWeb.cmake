@@ -24,6 +24,11 @@ if(TARGET plumb_tool)
     "${PROJECT_SOURCE_DIR}")
   set_tests_properties(web.scenarios PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800 RESOURCE_LOCK explorer_build)
 endif()
+if(PLUMB_PYTHON3 AND TARGET plumb_tool)
+  add_test(NAME web.drop COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/drop.sh" "$<TARGET_FILE:plumb_tool>"
+    "${PROJECT_SOURCE_DIR}" "${PLUMB_PYTHON3}")
+  set_tests_properties(web.drop PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 3600 RESOURCE_LOCK explorer_build)
+endif()
 if(PLUMB_PYTHON3)
   add_test(NAME web.replay_browser COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/replay.sh" browser none "${PROJECT_SOURCE_DIR}"
     "${PLUMB_PYTHON3}")
@@ -31,5 +36,5 @@ if(PLUMB_PYTHON3)
     RESOURCE_LOCK explorer_build)
   add_test(NAME web.page COMMAND bash "${PROJECT_SOURCE_DIR}/tests/web/page.sh" "$<TARGET_FILE:plumb_web_native>"
     "${PROJECT_SOURCE_DIR}" "${PLUMB_PYTHON3}")
-  set_tests_properties(web.page PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 1800 RESOURCE_LOCK explorer_build)
+  set_tests_properties(web.page PROPERTIES LABELS "host;slow" SKIP_RETURN_CODE 77 TIMEOUT 3600 RESOURCE_LOCK explorer_build)
 endif()

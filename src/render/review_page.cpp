@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "html_view.hpp"
+#include "plumb/core/vec3.hpp"
 #include "plumb/io/printable.hpp"
 #include "plumb/render/review_report.hpp"
 #include "plumb/scenario/count_text.hpp"
@@ -90,8 +91,7 @@ void add_stretches(const LogReview& log, Section& out) {
   for (const review::Stretch& stretch : log.stretches) {
     std::vector<ViewCell> row = {fmt::format("{:.1f}", stretch.from_s), fmt::format("{:.1f}", stretch.to_s)};
     for (const review::Axes& m : stretch.mean_mps2) {
-      row.emplace_back(std::isfinite(m[0]) ? fmt::format("{:.3f}, {:.3f}, {:.3f}; {:.3f}", m[0], m[1], m[2],
-                                                         std::hypot(m[0], m[1], m[2]))
+      row.emplace_back(std::isfinite(m[0]) ? fmt::format("{:.3f}, {:.3f}, {:.3f}; {:.3f}", m[0], m[1], m[2], norm(m))
                                            : "-");
     }
     rows.push_back(row);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plumb/core/units.hpp"
+#include "plumb/core/vec3.hpp"
 #include "plumb/io/printable.hpp"
 #include "plumb/scenario/count_text.hpp"
 
@@ -352,7 +353,7 @@ double off_gravity_mps2(const LogReview& in, std::size_t chip) {
     const review::Axes& mean = stretch.mean_mps2[chip];
     if (!std::isfinite(mean[0])) continue;
     const double length_s = stretch.to_s - stretch.from_s;
-    sum += length_s * (std::hypot(mean[0], mean[1], mean[2]) - in.gravity_mps2);
+    sum += length_s * (norm(mean) - in.gravity_mps2);
     weight += length_s;
   }
   return weight > 0.0 ? sum / weight : std::nan("");

@@ -5,6 +5,7 @@
 
 #include "limits.hpp"
 #include "plumb/core/units.hpp"
+#include "plumb/core/vec3.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -192,7 +193,7 @@ SourceBlock reading_of(const LogDigest& digest, const ChipSummary& chip, std::in
   return out;
 }
 
-double length_of(const Axes& v) noexcept { return std::hypot(v[0], v[1], v[2]); }
+double length_of(const Axes& v) noexcept { return norm(v); }
 
 Axes difference(const Axes& a, const Axes& b) noexcept { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 

@@ -5,6 +5,7 @@
 
 #include "chips.hpp"
 #include "limits.hpp"
+#include "plumb/core/vec3.hpp"
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -80,7 +81,7 @@ bool another_least(const std::vector<Misfit>& tried, std::vector<Misfit>::const_
 }
 
 double scatter_of(const SourceBlock& block) noexcept {
-  return std::hypot(block.deviation_mps2(0), block.deviation_mps2(1), block.deviation_mps2(2));
+  return norm({block.deviation_mps2(0), block.deviation_mps2(1), block.deviation_mps2(2)});
 }
 
 }  // namespace

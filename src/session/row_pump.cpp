@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <system_error>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -22,7 +23,13 @@ RowPump::RowPump(io::LogReader& reader, const io::ArrayFile& array, bool live) :
     rows.clocks = static_cast<int>(array.input.clock_columns.size());
     free_[free_count_++] = &rows;
   }
-  if (!live) thread_ = std::thread([this] { read_ahead(); });
+  if (live) return;
+  at_a_time_ = kBatchRows;
+  try {
+    thread_ = std::thread([this] { read_ahead(); });
+  } catch (
+      const std::system_error&) {  // there is no thread to be had, in a page for one: who works on the rows reads them
+  }
 }
 
 RowPump::~RowPump() {
@@ -87,8 +94,9 @@ void RowPump::read_ahead() noexcept {
 
 const stepping::Rows* RowPump::next() {
   if (!thread_.joinable()) {
-    if (status_ == io::LogReader::Next::row) fill(batches_.front(), 1);
-    return status_ == io::LogReader::Next::row ? &batches_.front() : nullptr;
+    if (status_ != io::LogReader::Next::row) return nullptr;
+    fill(batches_.front(), at_a_time_);
+    return batches_.front().row.empty() ? nullptr : &batches_.front();
   }
   std::unique_lock<std::mutex> lock(mutex_);
   if (handed_out_ != nullptr) {

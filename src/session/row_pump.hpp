@@ -1,5 +1,6 @@
 /// Rows of a log in batches. Of a file, a thread of its own reads ahead of who works on them, a few batches and no
-/// more; of a live stream every row is handed on as it comes.
+/// more; where no thread can be had, the batch is read when it is asked for. Of a live stream every row is handed on as
+/// it comes.
 #pragma once
 
 #include <array>
@@ -56,7 +57,8 @@ class RowPump {
   stepping::Rows* handed_out_ = nullptr;
   bool at_end_ = false, unwanted_ = false;
   std::exception_ptr failure_;
-  std::thread thread_;  ///< none of a live stream
+  std::size_t at_a_time_ = 1;  ///< rows, where there is no thread
+  std::thread thread_;         ///< none of a live stream
 };
 
 }  // namespace session

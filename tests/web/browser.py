@@ -317,8 +317,8 @@ def check_share(page, file):
 def check_looks(page, shots):
     axe = (pathlib.Path(page.source) / "web/node_modules/axe-core/axe.min.js").read_text(encoding="utf-8")
     page.browser.execute_script(axe)
-    for view in ("design", "break", "table2", "flight"):
-        page.tab("design" if view == "design" else "break")
+    for view in ("design", "break", "table2", "flight", "drop"):
+        page.tab(view if view in ("design", "drop") else "break")
         if view in ("table2", "flight"):
             page.choose("preset", view)
             page.settle()

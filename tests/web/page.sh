@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=needs.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/needs.sh"
 native="$1" source="$2" python="$3"
-need_web "$source"
+need_web "$source" weblogs
 command -v npm >/dev/null || skip "no npm (scripts/web installs it)"
 cmp -s "$source/web/package-lock.json" "$source/web/node_modules/.plumb-lock" || skip "the packages of web/package-lock.json are not fetched (scripts/web does it)"
 

@@ -2,6 +2,7 @@ import { Core } from "./core";
 import { Break } from "./play";
 import { Design } from "./design";
 import { byId, make } from "./dom";
+import { Drop } from "./drop";
 import { unpacked } from "./packed";
 import { Share } from "./share";
 
@@ -47,10 +48,11 @@ async function start(): Promise<void> {
     changed();
   });
   second = new Break(core, () => design.geometry, changed);
+  const drop = new Drop();
   share = new Share(design, second, show);
   document.body.dataset.ready = "yes";
   // What the tests ask of the page.
-  Object.assign(window, { plumb: { core, design, second, share } });
+  Object.assign(window, { plumb: { core, design, second, share, drop } });
 }
 
 start().catch((error: Error) => {
