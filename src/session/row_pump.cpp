@@ -27,8 +27,8 @@ RowPump::RowPump(io::LogReader& reader, const io::ArrayFile& array, bool live) :
   at_a_time_ = kBatchRows;
   try {
     thread_ = std::thread([this] { read_ahead(); });
-  } catch (
-      const std::system_error&) {  // there is no thread to be had, in a page for one: who works on the rows reads them
+  } catch (const std::system_error&) {
+    // There is no thread to be had, in a page for one: who works on the rows reads them.
   }
 }
 

@@ -1,5 +1,6 @@
 // The scene in the address of the page: behind the `#` stands what differs from the page as it opens, and it goes nowhere, for a
 // browser sends no fragment. `#break` is that view; `#break=…` is a scene, JSON in base64url.
+import { Refusal } from "./core";
 import type { Break, SharedRun } from "./play";
 import type { Design, Geometry } from "./design";
 import { byId, download, make } from "./dom";
@@ -91,6 +92,15 @@ export class Share {
   }
 
   private downloadScene(): void {
+    try {
+      this.keep();
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      byId("share-told").textContent = error.message;
+    }
+  }
+
+  private keep(): void {
     const files = Object.entries(this.run.files()).map(([name, text]) => [name, strToU8(text)]);
     download("plumb-scene.zip", zipSync(Object.fromEntries(files)), "application/zip");
     byId("share-told").textContent = "In the folder of the files, sh play.sh plays the scene with the tool and says the same verdicts.";

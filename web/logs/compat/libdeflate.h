@@ -1,5 +1,5 @@
-/// The check sum of zlib, which is all that plumb takes of libdeflate, by Boost.CRC: there is no libdeflate for WebAssembly
-/// among Debian's packages.
+/// The check sum of zlib, which is all that plumb takes of libdeflate, by Boost.CRC: among Debian's packages there is
+/// no libdeflate for WebAssembly.
 #pragma once
 
 #include <boost/crc.hpp>
