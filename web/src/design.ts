@@ -47,7 +47,7 @@ export class Design {
   /** What another page of this explorer had. */
   restore(geometry: Geometry): void {
     const axes = geometry.axes;
-    const sound = axes.length >= 3 && axes.length <= this.core.words.capacity && axes.every((axis) => axis.length === 3 && axis.every(Number.isFinite));
+    const sound = axes.length >= 3 && axes.length <= this.core.words.capacity && axes.every((axis) => axis.length === 3 && axis.every(Number.isFinite)) && geometry.chips.length === axes.length;
     if (!sound || !(geometry.noise_mps2 > 0)) throw new Error("this is no geometry");
     this.geometry = geometry;
     const known = [...byId<HTMLSelectElement>("geometry").options].some((option) => option.value === geometry.name);

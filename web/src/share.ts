@@ -2,8 +2,9 @@
 // browser sends no fragment. `#break` is that view; `#break=…` is a scene, JSON in base64url.
 import { Refusal } from "./core";
 import type { Break, SharedRun } from "./play";
-import type { Design, Geometry } from "./design";
+import type { Design } from "./design";
 import { byId, download, make } from "./dom";
+import type { Geometry } from "./geometry";
 import { zipSync, strToU8 } from "fflate";
 
 interface Shared {
