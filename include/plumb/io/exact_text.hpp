@@ -10,8 +10,8 @@ namespace plumb {
 inline namespace PLUMB_ABI {
 namespace io {
 
-/// "20 mg0": the shortest of the texts in these units that read back as the identical value. The last unit must be the SI
-/// unit, whose factor of 1 makes it always exact.
+/// "20 mg0": the shortest of the texts in these units that read back as the identical value. The last unit must be the
+/// SI unit, whose factor of 1 makes it always exact.
 std::string exact_text(Quantity quantity, double si, std::initializer_list<const char*> units);
 
 }  // namespace io
