@@ -191,7 +191,14 @@ tl::expected<Outcome, std::string> replay(const Plan& plan, int tool, const scen
 std::string sentence_of(const Plan& plan, const Spec& spec) {
   scenario::FaultContext context;
   context.datasheet = campaign_kernel::datasheet_of(plan.tools[static_cast<size_t>(spec.tool)]);
-  if (plan.magnetic) context.vector = scenario::FaultContext::Vector::magnetic;
+  if (plan.magnetic) {
+    // Readings in units of the field, sensors by number: a plan keeps no names.
+    context.vector = scenario::FaultContext::Vector::magnetic;
+    context.raw = scenario::FaultContext::Raw::acceleration;
+    context.base_per_raw = 1.0 / plan.tools[static_cast<size_t>(spec.tool)].volt_per_mps2;
+    for (int i = 0; i < context.datasheet.size; ++i)
+      context.datasheet.sensor[static_cast<size_t>(i)].row.id = make_id(("m" + std::to_string(i + 1)).c_str());
+  }
   std::string text = count_text(context.datasheet.size, "sensor") + " (" +
                      plan.tools[static_cast<size_t>(spec.tool)].name + "), " + count_text(spec.stations, "station") +
                      ": ";

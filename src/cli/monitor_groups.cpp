@@ -101,7 +101,7 @@ std::optional<io::FileError> misuse(const MonitorOptions& o) {
                          0,
                          "",
                          "does not go with --limits, --roll-test or a snapshot",
-                         "run each group by itself: --array TOOL.toml#GROUP",
+                         "leave --group out for these; magnetometers by themselves: --array TOOL.toml#GROUP",
                          io::ExitCode::usage};
   for (const std::string* path : {&o.events, &o.verdicts, &o.motion, &o.inclination}) {
     if (*path == "-")
@@ -150,7 +150,7 @@ struct Group {
   std::unique_ptr<session::GroupDip> dip;  ///< of magnetometers whose dip is known
   std::unique_ptr<session::RateWatch> rate;
   std::optional<session::EventsFile> events, json;  ///< of gyros
-  std::pair<SensorSet, bool> shown;                 ///< what the table says of them: out of service, a rate at rest
+  std::pair<SensorSet, int> shown;                  ///< what the table says of them: out of service, and what else
   session::RateRun run;
 };
 
@@ -164,6 +164,7 @@ class ToolWatch {
   io::ExitCode say();
 
  private:
+  io::FileExpected<void> make_rate(Group& group);
   io::FileExpected<void> open_rate(Group& group);
   io::FileExpected<void> open_dip(Group& group);
   io::FileExpected<void> put(const session::DipEvent& event, const Group& group);
@@ -198,7 +199,7 @@ std::optional<io::ExitCode> ToolWatch::begin() {
   for (const std::unique_ptr<Group>& group : groups_) {
     group->label = column(group->wanted.name, widest_);
     if (group->array().field != io::FieldKind::rate) continue;
-    if (io::FileExpected<void> opened = open_rate(*group); !opened) return report(opened.error());
+    if (io::FileExpected<void> made = make_rate(*group); !made) return report(made.error());
     if (group->wanted.name == rates_of_) rates = group->rate.get();
   }
   auto gravity = ArrayWatch::begin(own, rates != nullptr ? &rates->group() : nullptr);
@@ -208,7 +209,9 @@ std::optional<io::ExitCode> ToolWatch::begin() {
   if (rates != nullptr) gravity_->take_rates_of(*rates);
   for (const std::unique_ptr<Group>& group : groups_) {
     io::FileExpected<void> opened;
-    if (group->array().field != io::FieldKind::rate) {
+    if (group->rate) {
+      opened = open_rate(*group);
+    } else {
       MonitorOptions options = options_of(own, group->wanted);
       options.label = group->label;
       auto watch = ArrayWatch::begin(options);
@@ -227,11 +230,16 @@ std::optional<io::ExitCode> ToolWatch::begin() {
   return std::nullopt;
 }
 
-io::FileExpected<void> ToolWatch::open_rate(Group& group) {
+io::FileExpected<void> ToolWatch::make_rate(Group& group) {
   io::FileExpected<std::unique_ptr<session::RateWatch>> made =
       session::RateWatch::make(group.array(), true, group.wanted.gyros ? &*group.wanted.gyros : nullptr);
   if (!made) return tl::unexpected<io::FileError>(made.error());
   group.rate = *std::move(made);
+  print_error(render::rate_bounds_note(group.array(), group.rate->group().calibrated));
+  return {};
+}
+
+io::FileExpected<void> ToolWatch::open_rate(Group& group) {
   track_.tell(*group.rate);
   group.rate->tell([this, &group](const session::RateEvent& event) { return put(event, group); });
   const bool live = options_.log.path == "-" || options_.log.follow;
@@ -279,7 +287,8 @@ io::FileExpected<void> ToolWatch::put(const session::RateEvent& event, Group& gr
     std::string line = session::rate_event_json(event, group.array().array);
     if (*file && done) done = (*file)->put(line);
   }
-  const std::pair<SensorSet, bool> now(event.excluded | event.off_at_rest, event.turned_at_rest);
+  const std::pair<SensorSet, int> now(event.excluded | event.off_at_rest,
+                                      (event.turned_at_rest ? 1 : 0) + (event.alarm ? 2 : 0));
   if (gravity_->outputs().table && std::exchange(group.shown, now) != now)
     print_now(group.label + render::rate_line(event, group.array().array));
   return done;

@@ -114,7 +114,7 @@ void RateMonitor::judge_rest() noexcept {
   // Without a suspect although readings contradict: the axes are too few to name any, and rest decides between all.
   const SensorSet suspected = !parity.alarm ? SensorSet() : parity.suspects.empty() ? array_.all() : parity.suspects;
   verdict_.off_at_rest = (off & suspected) | (verdict_.off_at_rest & (off | silent));
-  verdict_.turned_at_rest = !off.empty() && verdict_.off_at_rest.empty();
+  verdict_.turned_at_rest = !(off - parity.excluded).empty() && verdict_.off_at_rest.empty();
   parity_.set_in_service(array_.all() - verdict_.off_at_rest);
 }
 

@@ -69,6 +69,26 @@ std::string group_heading_json(const io::ArrayFile& group) {
          "\n";
 }
 
+std::string rate_bounds_note(const io::ArrayFile& group, bool calibrated) {
+  if (calibrated) return "";
+  bool scale = true, axis = true, bias = true;
+  for (int i = 0; i < group.array.size(); ++i) {
+    const RateErrors& e = group.rate.errors[static_cast<std::size_t>(i)];
+    scale = scale && e.scale > 0.0;
+    axis = axis && e.axis_rad > 0.0;
+    bias = bias && e.bias_radps > 0.0;
+  }
+  std::string missing = scale ? "" : "scale_bound";
+  if (!axis) missing += (missing.empty() ? "" : ", ") + std::string("axis_bound_rad");
+  if (!bias) missing += (missing.empty() ? "" : ", ") + std::string("bias_bound_radps");
+  if (missing.empty()) return "";
+  return fmt::format(
+      "plumb: {}: group {} does not state {} for every gyro: what is not stated counts as 0, so healthy gyros may be "
+      "excluded, and bounds of the rate hold for perfect gyros only. Remedy: state them in [group.rate], or calibrate "
+      "the gyros and give --group {}=CAL.json.\n",
+      group.path, group.group, missing, group.group);
+}
+
 std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& group) {
   const SensorArray& array = group.array;
   const SensorSet out_of_service = run.last.excluded | run.last.off_at_rest | run.silent;
@@ -93,6 +113,11 @@ std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& grou
                        run.last.off_at_rest.size() == 1 ? "it reads" : "they read");
   const SensorSet earlier = (run.ever_excluded | run.ever_off_at_rest) - out_of_service;
   if (!earlier.empty()) out += fmt::format("earlier     {} out of service for a time\n", sensor_names(earlier, array));
+  if (run.alarms > 0)
+    out += fmt::format("contradict  {} (first t = {:.3f} s) readings contradicted each other{}{}\n",
+                       count_text(static_cast<std::size_t>(run.alarms), "time"), run.first_alarm_s,
+                       run.ever_excluded.empty() && run.ever_off_at_rest.empty() ? ", and nobody could be named" : "",
+                       run.last.alarm ? "; they do at the end of the log" : "");
   if (run.turned_at_rest > 0)
     out += fmt::format(
         "at rest     {} (first t = {:.3f} s), gyros read a rate that parity blames on none of them: the tool turned "
@@ -123,6 +148,8 @@ std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& grou
                                              {"ever_excluded", io::ids_of(run.ever_excluded, array)},
                                              {"ever_off_at_rest", io::ids_of(run.ever_off_at_rest, array)},
                                              {"silent", io::ids_of(run.silent, array)},
+                                             {"alarms", run.alarms},
+                                             {"in_alarm", run.last.alarm},
                                              {"turned_at_rest", run.turned_at_rest},
                                              {"blocks_with_bound", run.bounded_blocks},
                                              {"bound_mean_radps", mean_bound(run)},
@@ -132,13 +159,21 @@ std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& grou
 }
 
 bool rate_is_trusted(const session::RateRun& run) noexcept {
-  return !run.stopped && run.bounded_blocks > 0 && (run.last.excluded | run.last.off_at_rest | run.silent).empty();
+  return !run.stopped && run.bounded_blocks > 0 && !run.last.alarm &&
+         (run.last.excluded | run.last.off_at_rest | run.silent).empty();
 }
 
 std::string rate_sentence(const session::RateRun& run, const io::ArrayFile& group) {
   const SensorSet out = run.last.excluded | run.last.off_at_rest | run.silent;
   if (run.stopped) return "The log ended in an error: " + run.stop.what + ".";
   if (run.bounded_blocks == 0) return "No bound on the error of the rate can be given.";
+  if (run.last.alarm && out.empty())
+    return "Do not use the rate: the gyros contradict each other, and which of them is faulty cannot be told.";
+  if (run.last.alarm)
+    return fmt::format("Do not use the rate: beside {}, which are out of service, others contradict each other.",
+                       sensor_names(out, group.array));
+  if (run.alarms > 0 && out.empty())
+    return "All gyros are in service; for a time they contradicted each other, and none could be named.";
   if (out.empty()) return "All gyros are in service.";
   return fmt::format("Do not use the rate of {}; in service: {}.", sensor_names(out, group.array),
                      sensor_names(group.array.all() - out, group.array));
@@ -220,6 +255,9 @@ std::string dip_line(const session::DipEvent& event, const io::ArrayFile& group,
 std::string rate_line(const session::RateEvent& event, const SensorArray& array) {
   const SensorSet out = event.excluded | event.off_at_rest;
   std::string words = out.empty() ? "every gyro is in service" : "out of service: " + sensor_names(out, array);
+  if (event.alarm && !event.suspects.empty())
+    words += "; readings contradict each other, suspected: " + sensor_names(event.suspects, array);
+  if (event.alarm && event.suspects.empty()) words += "; readings contradict each other, and none of them can be named";
   if (event.turned_at_rest) words += "; the gyros read a rate at rest that parity blames on none of them";
   return beside_line(event.time_s, to_string(event.cause), sensor_names(out, array), words);
 }

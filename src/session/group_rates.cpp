@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plumb {
 inline namespace PLUMB_ABI {
@@ -139,28 +140,73 @@ TriadRates GroupRates::rates_of(const RateSample& sample, SensorSet without) con
   return out;
 }
 
-ToolRate GroupRates::step(const RateSample& sample, SensorSet excluded) const noexcept {
-  const auto given = [](const TriadRates& of) {
-    return static_cast<int>(std::count(of.given.begin(), of.given.end(), true));
-  };
-  TriadRates rates = rates_of(sample, excluded);
-  if (!excluded.empty() && given(rates) <= 2 * outvoted_) rates = rates_of(sample, {});
-  ToolRate out;
-  out.triads = given(rates);
-  const MedianRate median = median_rate(rates, outvoted_);
-  out.given = median.given;
-  if (!out.given) return out;
-  out.rate_radps = median.rate_radps;
+GroupRates::Together GroupRates::together(const TriadRates& rates) const noexcept {
+  if (const MedianRate median = median_rate(rates, outvoted_); median.given) return {true, median.rate_radps, 0.0};
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Vec3 low{kNone, kNone, kNone}, high{-kNone, -kNone, -kNone};
+  int count = 0;
+  for (std::size_t t = 0; t < static_cast<std::size_t>(rates.triads); ++t) {
+    if (!rates.given[t]) continue;
+    ++count;
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::fmin(low[c], rates.rate_radps[t][c]);
+      high[c] = std::fmax(high[c], rates.rate_radps[t][c]);
+    }
+  }
+  if (count <= outvoted_) return {};  // all of them may be faulty
+  return {true, scaled(plus(low, high), 0.5), 0.5 * norm(minus(high, low))};
+}
+
+GyroErrors GroupRates::worst_errors(const RateSample& sample) const noexcept {
   const bool told = sample.force_mps2 >= 0.0 && std::isfinite(sample.force_mps2);
   const double force_mps2 = told ? sample.force_mps2 : group_.setup.force_bound_mps2;
-  GyroErrors worst;
+  GyroErrors out;
   for (const Triad& one : triad_) {
-    worst.scale = std::max(worst.scale, one.errors.scale);
-    worst.bias_radps = std::max(worst.bias_radps, one.errors.bias_radps + one.per_force * force_mps2);
-    worst.noise_radps = std::max(worst.noise_radps, one.errors.noise_radps);
+    out.scale = std::max(out.scale, one.errors.scale);
+    out.bias_radps = std::max(out.bias_radps, one.errors.bias_radps + one.per_force * force_mps2);
+    out.noise_radps = std::max(out.noise_radps, one.errors.noise_radps);
   }
+  return out;
+}
+
+double GroupRates::lag_error_radps(const TriadRates& rates, double time_s, const GyroErrors& worst) noexcept {
+  const double step_s = time_s - last_s_, period_s = group_.setup.sample_period_s;
+  TriadRates change;
+  change.triads = rates.triads;
+  for (std::size_t t = 0; t < triad_.size(); ++t) {
+    change.given[t] = rates.given[t] && last_.given[t];
+    change.rate_radps[t] = minus(rates.rate_radps[t], last_.rate_radps[t]);
+  }
+  last_ = rates;
+  last_s_ = time_s;
+  if (!(lag_s_ > 0.0)) return 0.0;
+  const Together changed = together(change);
+  double slope_radps2 = std::numeric_limits<double>::infinity();
+  if (changed.given && step_s > 0.5 * period_s && step_s < 1.5 * period_s) {
+    const GyroErrors of_two = {worst.scale, 0.0, 0.0, 2.0 * worst.noise_radps, 0.0};
+    const double length_radps = norm(changed.rate_radps);
+    slope_radps2 =
+        (length_radps + changed.spread_radps + median_error_radps(of_two, length_radps, kNoiseSigmas)) / step_s;
+  }
+  const double before_radps2 = std::exchange(last_slope_radps2_, slope_radps2);
+  return lag_s_ * (slope_radps2 > before_radps2 ? 2.0 * slope_radps2 - before_radps2 : before_radps2);
+}
+
+ToolRate GroupRates::step(const RateSample& sample, SensorSet excluded) noexcept {
+  const TriadRates rates = rates_of(sample, excluded);
+  ToolRate out;
+  out.triads = static_cast<int>(std::count(rates.given.begin(), rates.given.end(), true));
+  const GyroErrors worst = worst_errors(sample);
+  const double lag_radps = lag_error_radps(rates, sample.time_s, worst);
+  const Together found = together(rates);
+  if (!found.given) return out;
+  out.rate_radps = found.rate_radps;
   const double length_radps = norm(out.rate_radps);
-  out.bound_radps = with_common_part(group_, length_radps, median_error_radps(worst, length_radps, kNoiseSigmas));
+  out.bound_radps = with_common_part(group_, length_radps,
+                                     median_error_radps(worst, length_radps + found.spread_radps, kNoiseSigmas)) +
+                    found.spread_radps + lag_radps;
+  out.given = std::isfinite(length_radps) && std::isfinite(out.bound_radps);
+  out.begins = !std::isfinite(lag_radps);
   return out;
 }
 

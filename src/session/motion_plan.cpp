@@ -75,10 +75,13 @@ Missing missing_in(const io::ArrayFile& array, bool calibrated, bool commissione
     missing.need(spec.rate_bound_radps.value_or(0.0) > 0.0, "motion.rate_bound_radps");
     return missing;
   }
-  if (commissioned) return missing;
   const io::GyroSpec& g = spec.gyro;
+  if (!g.group.empty()) {  // of their lag a calibration in motion, made with another gyro, says nothing
+    missing.need(g.lag_s.has_value(), "gyro.lag_bound_s");
+    return missing;
+  }
+  if (commissioned) return missing;
   missing.need(g.lag_s.has_value(), "gyro.lag_bound_s");
-  if (!g.group.empty()) return missing;
   missing.need(g.scale.has_value(), "gyro.scale_bound");
   missing.need(g.axis_rad.has_value(), "gyro.axis_bound_rad");
   missing.need(g.bias_radps.has_value(), "gyro.bias_bound_radps");
@@ -121,10 +124,10 @@ MotionSetup motion_setup_of(const io::ArrayFile& array, const Calibration* calib
     out.errors[k] = errors_of(array, calibration, i, days, commissioned);
   }
   if (rates != nullptr) {
-    // All that the median is off by, but for its lag, is stated with each sample.
+    // All that the median is off by is stated with each sample, but for what the gyros lag the accelerometers by.
     out.gyros = 1;
     out.gyro_corroborated = true;
-    out.gyro.lag_s = *spec.gyro.lag_s + rates->lag_bound_s();
+    out.gyro.lag_s = *spec.gyro.lag_s;
   }
   if (array.input.rotation_columns.empty()) return out;
   out.gyros = array.input.second_rotation_columns.empty() ? 1 : 2;
@@ -140,6 +143,13 @@ io::FileExpected<GroupRates> rates_of(const io::ArrayFile& array, const RateGrou
     return tl::unexpected<io::FileError>(not_judged(
         array, "gyro.group", group + ", and these gyros are not watched here",
         "run plumb monitor with --group " + array.motion.gyro.group + ", or name the columns of a gyro in [input]"));
+  for (int i = 0; i < gyros->array.size() && !gyros->calibrated; ++i) {
+    const RateErrors& e = gyros->setup.errors[static_cast<std::size_t>(i)];
+    if (e.scale > 0.0 && e.axis_rad > 0.0 && e.bias_radps > 0.0) continue;
+    return tl::unexpected<io::FileError>(
+        not_judged(array, "gyro.group", group + ", of whose " + gyros->array.row(i).id.data() + " a bound is missing",
+                   "state scale_bound, axis_bound_rad and bias_bound_radps in [group.rate], or calibrate the gyros"));
+  }
   if (!std::isfinite(gyros->common))
     return tl::unexpected<io::FileError>(not_judged(
         array, "gyro.group", group + ", and nothing bounds what its calibration leaves open for all gyros alike",

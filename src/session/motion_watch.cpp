@@ -74,7 +74,7 @@ void MotionWatch::add_group_rate(MotionSample& row) {
   const RateSample& gyros = gyros_->newest();
   ToolRate rate;
   if (gyros.time_s == row.time_s) rate = plan_.rates->step(gyros, gyros_->failed());
-  inputs_.add_rate(0, rate.given, rate.rate_radps);
+  if (!rate.begins) inputs_.add_rate(0, rate.given, rate.rate_radps);
   if (!rate.given) return;
   row.rate_given[0] = true;
   row.rate_radps[0] = rate.rate_radps;

@@ -98,11 +98,14 @@ io::FileExpected<void> RateWatch::step(const RateSample& sample) {
   const RateVerdict before = run_.last;
   const RateVerdict& now = monitor_.step(sample);
   if (now.turned_at_rest && !before.turned_at_rest && run_.turned_at_rest++ == 0) run_.turned_at_rest_s = sample.time_s;
+  if (now.alarm && !before.alarm && run_.alarms++ == 0) run_.first_alarm_s = sample.time_s;
   count(now);
-  const bool changed = now.suspects != before.suspects || now.excluded != before.excluded ||
-                       now.off_at_rest != before.off_at_rest || now.turned_at_rest != before.turned_at_rest;
+  const bool changed = now.alarm != before.alarm || now.suspects != before.suspects ||
+                       now.excluded != before.excluded || now.off_at_rest != before.off_at_rest ||
+                       now.turned_at_rest != before.turned_at_rest;
   if (!changed) return {};
-  const RateEvent event{sample.time_s, now.suspects, now.excluded, now.off_at_rest, now.turned_at_rest, now.cause};
+  const RateEvent event{sample.time_s,      now.suspects, now.excluded, now.off_at_rest,
+                        now.turned_at_rest, now.alarm,    now.cause};
   io::FileExpected<void> done;
   for (const Sink& sink : sinks_) {
     if (done) done = sink(event);
@@ -144,7 +147,8 @@ std::string rate_event_json(const RateEvent& event, const SensorArray& array) {
                      {"suspects", io::ids_of(event.suspects, array)},
                      {"excluded", io::ids_of(event.excluded, array)},
                      {"off_at_rest", io::ids_of(event.off_at_rest, array)},
-                     {"turned_at_rest", event.turned_at_rest}})
+                     {"turned_at_rest", event.turned_at_rest},
+                     {"alarm", event.alarm}})
       .dump();
 }
 

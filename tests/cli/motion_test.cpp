@@ -75,7 +75,7 @@ TEST(MotionCommand, AGyroThatNothingCorroboratesIsOneMoreSuspect) {
 TEST(MotionCommand, AGroupOfGyrosGivesTheRateAndAFaultyChipOfItHidesNobody) {
   const Directory where;
   const std::string out = play_examples(where, {"motion/three_gyros.toml"});
-  EXPECT_TRUE(says(out, {"gx2 is stuck", "in motion   9998 of 10000 samples judged, 1 alarm, the first at 3.00",
+  EXPECT_TRUE(says(out, {"gx2 is stuck", "in motion   9998 of 10000 samples judged, 1 alarm, the first at 3.0",
                          "isolated  x1, y1, z1 (imu1) at 3.0", "rate      the median of the group of gyros",
                          "excluded    gx2, gy2, gz2"}))
       << out;

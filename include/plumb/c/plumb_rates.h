@@ -132,9 +132,10 @@ typedef struct plumb_triad_bounds {
 /* No errors; noise within six sigmas. Error: null_pointer. */
 plumb_error plumb_triad_bounds_defaults(plumb_triad_bounds* bounds) PLUMB_NOEXCEPT;
 /* What the median at this length of the rate is off by at most, in length [rad/s], its lag left out. For
- * plumb_motion_sample.rate_error_radps[0]. Infinite where the bounds are so wide that the rate says nothing, and on an
- * error. Errors: null_pointer, wrong_struct; not_finite and out_of_range with index 0 .. 4, the bound in its order, or
- * 5, the rate. */
+ * plumb_motion_sample.rate_error_radps[0]. What triads lag each other by is no delay of their median: add sqrt(3)
+ * times the largest lag times the angular acceleration. Infinite where the bounds are so wide that the rate says
+ * nothing, and on an error. Errors: null_pointer, wrong_struct; not_finite and out_of_range with index 0 .. 4, the
+ * bound in its order, or 5, the rate. */
 plumb_error plumb_median_error(const plumb_triad_bounds* bounds, double rate_radps, double* error_radps) PLUMB_NOEXCEPT;
 
 #ifdef __cplusplus

@@ -17,6 +17,8 @@ std::string group_heading(const io::ArrayFile& group);
 /// The same before its lines of JSON: {"group": {"name": ..., "field": ..., "sensors": [...]}}.
 std::string group_heading_json(const io::ArrayFile& group);
 
+/// For standard error, where gyros are judged by a datasheet that bounds their errors by nothing; else empty.
+std::string rate_bounds_note(const io::ArrayFile& group, bool calibrated);
 std::string rate_run_text(const session::RateRun& run, const io::ArrayFile& group);
 std::string rate_run_json(const session::RateRun& run, const io::ArrayFile& group);
 

@@ -15,12 +15,22 @@ namespace session {
 struct ToolRate {
   bool given = false;  ///< enough triads deliver to outvote the faulty ones
   Vec3 rate_radps{};   ///< tool frame
-  /// Of the length of the error, while no more units are faulty than `faults`: scale, axes, bias, g-sensitivity, noise
-  /// and what calibration leaves in common. Lags are not in it: `GroupRates::lag_bound_s`.
+  /// Of the length of the error, while no more units are faulty than `faults`: scale, axes, bias, g-sensitivity, noise,
+  /// what the gyros lag each other by, and what calibration leaves in common. What all of them lag the accelerometers
+  /// by is not in it.
   double bound_radps = std::numeric_limits<double>::infinity();
-  int triads = 0;  ///< that deliver
+  int triads = 0;       ///< that deliver
+  bool begins = false;  ///< enough of them, but how the rate changes is not known yet: no rate is given
 };
 
+/// While fewer deliver but one of them at least is healthy, the rate is the middle between the extremes, and half of
+/// what they differ by is in the bound.
+///
+/// A lag is no delay of the median, which may be a leading triad's at one sample and a lagging one's at the next: it is
+/// in the bound of each sample by the angular acceleration, and that by what the triads change by from sample to
+/// sample, judged as they are. It is taken to change in the next sample by no more than it did in the last one. So the
+/// first two samples, and those after a gap, have no rate where a lag is stated.
+///
 /// Axes are made into triads: each chip of three axes or more that span space is one; axes of no chip are put together
 /// three by three. A unit that fails spoils the triads that it is in, so 2 k + 1 triads outvote `faults` units that
 /// spoil k at most (`median_rate`; docs/theory.md, T15).
@@ -33,13 +43,9 @@ class GroupRates {
   static io::FileExpected<GroupRates> make(const RateGroup& group, int faults = 1);
 
   /// A row, calibrated by `RateGroup::model` (`rate_sample`); axes that do not deliver, are at full scale or read no
-  /// number take their triad out of the vote. `excluded`: axes known to have failed; they vote no more where enough
-  /// triads are left without them.
-  ToolRate step(const RateSample& sample, SensorSet excluded = {}) const noexcept;
+  /// number take their triad out of the vote. `excluded`: axes known to have failed, which vote no more.
+  ToolRate step(const RateSample& sample, SensorSet excluded = {}) noexcept;
 
-  /// What the rate is late or early by at most, as a time: `MotionSetup::gyro.lag_s` in its place, beside what all
-  /// gyros are late by against the accelerometers. A rate that changes by a [rad/s^2] is off by a times this.
-  double lag_bound_s() const noexcept { return lag_s_; }
   int triads() const noexcept { return static_cast<int>(triad_.size()); }
   /// Axes that are in no triad.
   SensorSet left_out() const noexcept { return left_out_; }
@@ -55,14 +61,26 @@ class GroupRates {
   explicit GroupRates(const RateGroup& group) : group_(group) {}
   void add(const std::vector<int>& axes);
   void put_together(std::vector<int> loose);
+  /// What triads say together, and what half of their differences adds where they cannot outvote each other.
+  struct Together {
+    bool given = false;
+    Vec3 rate_radps{};
+    double spread_radps = 0.0;
+  };
   int spoiled_by_one() const;
   TriadRates rates_of(const RateSample& sample, SensorSet without) const noexcept;
+  Together together(const TriadRates& rates) const noexcept;
+  GyroErrors worst_errors(const RateSample& sample) const noexcept;
+  double lag_error_radps(const TriadRates& rates, double time_s, const GyroErrors& worst) noexcept;
 
   RateGroup group_;
   std::vector<Triad> triad_;
   SensorSet left_out_;
   int outvoted_ = 0;
-  double lag_s_ = 0.0;
+  double lag_s_ = 0.0;  ///< of the length of a rate
+  TriadRates last_;     ///< of the sample before
+  double last_s_ = std::numeric_limits<double>::quiet_NaN();
+  double last_slope_radps2_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace session

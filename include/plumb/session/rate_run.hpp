@@ -24,6 +24,7 @@ struct RateEvent {
   double time_s = 0.0;
   SensorSet suspects, excluded, off_at_rest;  ///< as they are from now on
   bool turned_at_rest = false;
+  bool alarm = false;  ///< readings contradict each other, and whoever is out of service does not explain it
   MotionCause cause = MotionCause::none;
 };
 
@@ -33,8 +34,10 @@ struct RateRun : LogEnd {
   RateVerdict last;
   std::uint64_t samples = 0, samples_at_rest = 0, blocks = 0;
   SensorSet ever_excluded, ever_off_at_rest;
-  SensorSet silent;                ///< no number from them for `kSilent_s` at the end
-  double silent_s = 0.0;           ///< the shortest of these
+  SensorSet silent;       ///< no number from them for `kSilent_s` at the end
+  double silent_s = 0.0;  ///< the shortest of these
+  int alarms = 0;         ///< times that readings began to contradict each other
+  double first_alarm_s = 0.0;
   int turned_at_rest = 0;          ///< times that this was found anew
   double turned_at_rest_s = 0.0;   ///< when first
   double worst_bound_radps = 0.0;  ///< of the means of two blocks, where they were valid
