@@ -11,6 +11,7 @@
 #include "flight_gyros.hpp"
 #include "plumb/io/output_file.hpp"
 #include "plumb/io/records.hpp"
+#include "plumb/session/flight_sheet.hpp"
 #include "plumb/session/interrupt.hpp"
 #include "plumb/session/monitor_pipeline.hpp"
 #include "plumb/session/progress.hpp"
@@ -24,10 +25,6 @@ using scenario::FlightErrorBox;
 using scenario::FlightSpec;
 
 constexpr double kUsualRate_hz = 1000.0;
-/// Delay of the simulator's second-order Butterworth filter far below its bandwidth f: sqrt(2) / (2 pi f).
-constexpr double kFilterDelay = 0.2250790790392765;
-/// Of a bound of lag so much is skew, the rest another bandwidth.
-constexpr double kSkewShare = 0.7;
 /// Noises of sensors that count as one.
 constexpr double kSameNoise = 1e-9;
 
@@ -44,42 +41,17 @@ double least_of(const io::ArrayFile& array, std::optional<double> io::MotionBoun
   return least;
 }
 
-double skew_of(double lag_s) { return std::fmin(kSkewShare * lag_s, scenario::kMostSkew_s); }
-double bandwidth_of(double lag_s, double bandwidth_hz) {
-  return std::fmin((1.0 - kSkewShare) * lag_s * bandwidth_hz / kFilterDelay, 0.5);
-}
-
-/// Half-widths, such that no draw is beyond a stated bound: an axis turns about two directions, a gyro has three axes,
-/// and vibration is rectified before the filter, which lets as little as half of it pass.
 FlightErrorBox box_of(const io::ArrayFile& array, double bandwidth_hz) {
-  FlightErrorBox box = FlightErrorBox::none();
-  const double lag_s = least_of(array, &io::MotionBounds::lag_s);
-  box.scale = least_of(array, &io::MotionBounds::scale);
-  box.axis_rad = least_of(array, &io::MotionBounds::axis_rad) / std::sqrt(2.0);
-  box.bias_mps2 = least_of(array, &io::MotionBounds::bias_mps2);
-  box.lever_m = least_of(array, &io::MotionBounds::lever_arm_m);
-  box.skew_s = skew_of(lag_s);
-  box.bandwidth = bandwidth_of(lag_s, bandwidth_hz);
-  box.rectification = 0.5 * least_of(array, &io::MotionBounds::rectification_per_mps2);
-  const io::GyroSpec& gyro = array.motion.gyro;
-  box.gyro_scale = gyro.scale.value_or(0.0);
-  box.gyro_axis_rad = 0.5 * gyro.axis_rad.value_or(0.0);
-  box.gyro_bias_radps = gyro.bias_radps.value_or(0.0) / std::sqrt(3.0);
-  box.gyro_skew_s = skew_of(gyro.lag_s.value_or(0.0));
-  box.gyro_bandwidth = bandwidth_of(gyro.lag_s.value_or(0.0), bandwidth_hz);
-  return box;
-}
-
-/// The smallest of those stated; else what the simulator has.
-double full_scale_mps2(const io::ArrayFile& array, double usual_mps2) {
-  double least = HUGE_VAL;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(array.array.size()); ++k) {
-    const DatasheetSensor& sheet = array.datasheet.sensor[k];
-    if (!(sheet.full_scale_raw > 0.0)) continue;
-    const SensorCoefficients& c = sheet.coefficients;
-    least = std::fmin(least, sheet.full_scale_raw / std::fabs(c.scale[0]) - std::fabs(c.bias[0]));
-  }
-  return std::isfinite(least) ? least : usual_mps2;
+  const MotionErrors least = {least_of(array, &io::MotionBounds::lever_arm_m),
+                              least_of(array, &io::MotionBounds::lag_s),
+                              least_of(array, &io::MotionBounds::rectification_per_mps2),
+                              least_of(array, &io::MotionBounds::scale),
+                              least_of(array, &io::MotionBounds::axis_rad),
+                              least_of(array, &io::MotionBounds::bias_mps2)};
+  const io::GyroSpec& g = array.motion.gyro;
+  const GyroErrors gyro = {g.scale.value_or(0.0), g.axis_rad.value_or(0.0), g.bias_radps.value_or(0.0),
+                           g.noise_radps.value_or(0.0), g.lag_s.value_or(0.0)};
+  return flight_errors_within(least, gyro, bandwidth_hz);
 }
 
 double rate_hz_of(const io::ArrayFile& array) {
@@ -140,7 +112,7 @@ io::FileExpected<FlightSpec> flight_spec_of(const io::ArrayFile& array, const Fl
       return refuse("sensor.noise", "differs from sensor to sensor, and the sensors of a flight have one noise",
                     "simulate with an array file that states the same noise for all");
   }
-  spec.full_scale_mps2 = full_scale_mps2(array, spec.full_scale_mps2);
+  spec.full_scale_mps2 = flight_full_scale_mps2(array.datasheet, spec.full_scale_mps2);
   spec.box = box_of(array, spec.bandwidth_hz);
   spec.gyros = (array.input.rotation_columns.empty() ? 0 : 1) + (array.input.second_rotation_columns.empty() ? 0 : 1);
   spec.gyro_noise_radps = array.motion.gyro.noise_radps.value_or(0.0);
@@ -203,21 +175,8 @@ std::string FlightPlay::add_groups(Row& row) {
   return names;
 }
 
-/// Readings as the log has them, by the coefficients of the sensors that fly, and in codes where one is stated.
 Sample FlightPlay::sample_of(const scenario::FlightSample& flown) const {
-  Sample out;
-  out.time_s = flown.time_s;
-  out.delivered = array_.array.all();
-  out.temperature_degc = array_.input.default_temperature_degc;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(array_.array.size()); ++i) {
-    const int sensor = static_cast<int>(i);
-    const double sense = model_.reads == Reads::gravity ? -1.0 : 1.0;
-    const double bias_mps2 = model_.bias_at(sensor, out.temperature_degc);
-    out.raw[i] = model_.scale_at(sensor, out.temperature_degc) * (sense * flown.reading_mps2[i] + bias_mps2);
-    const double code = array_.datasheet.sensor[i].resolution_raw;
-    if (code > 0.0) out.raw[i] = code * std::nearbyint(out.raw[i] / code);
-  }
-  return out;
+  return flight_sample(array_.datasheet, model_, array_.input.default_temperature_degc, flown);
 }
 
 /// What a host logs next.

@@ -263,6 +263,7 @@ def check_rules(page):
     after = [float(told[4].removeprefix("after ").removesuffix(" s")) for told in (plumb, px4)]
     assert after[0] < 0.1 < after[1], after
     assert "chip 1 (a1 a2 a3) excluded" in page.script("document.getElementById('sets').textContent")
+    assert set(page.script("Object.keys(window.plumb.second.files())")) == {"array.toml", "play.sh"}
     page.choose("preset", "drilling")
     page.check_run()
     plumb, paper, _, plain = page.script(cells)

@@ -53,8 +53,8 @@ class Play {
   /// Steps at most so many samples and keeps a record of each; 0 at the end.
   int run(int samples);
 
-  /// The scene that began last as files for the tool, by name: `array.toml`, `stand.toml`, `run.toml` and `play.sh`,
-  /// which plays them and says the same verdicts. Or a refusal.
+  /// The scene that began last as files for the tool, by name: `array.toml`, and of a run from station to station
+  /// `stand.toml` and `run.toml`; `play.sh` plays them and says the same verdicts. Or a refusal.
   std::string files() const;
 
   /// Of all samples stepped, one after the other: as many numbers each as `record_names` has.

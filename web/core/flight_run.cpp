@@ -1,12 +1,16 @@
 #include "flight_run.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "plumb/core/detail/archive.hpp"
 #include "plumb/core/units.hpp"
 #include "plumb/findings/detection_sizes.hpp"
+#include "plumb/health/motion_link.hpp"
 #include "plumb/io/hash.hpp"
+#include "plumb/session/flight_sheet.hpp"
 
 namespace plumb_web {
 
@@ -21,6 +25,9 @@ constexpr double kFlightNoise_mps2 = 0.02;
 constexpr double kFlightRange_g0 = 16.0;
 constexpr double kLongest_s = 30.0;
 constexpr int kFlightGyros = 2;
+constexpr double kFlightTemperature_degc = 25.0;
+/// A channel counts as clipped from this share of full scale on (docs/array-file.md).
+constexpr double kClipShare = 0.995;
 
 std::size_t slot(int i) { return static_cast<std::size_t>(i); }
 
@@ -67,6 +74,35 @@ MotionSetup setup_of_flight(const std::vector<Vec3>& arms, FlightKind kind) {
   return out;
 }
 
+std::optional<FlightKind> kind_of(const std::string& motion) {
+  for (int k = 0; k < scenario::kFlightKinds; ++k) {
+    if (motion == to_string(static_cast<FlightKind>(k))) return static_cast<FlightKind>(k);
+  }
+  return std::nullopt;
+}
+
+/// Errors are drawn within what the monitor is told, as `plumb simulate --flight` draws them from an array file.
+FlightSpec spec_of(const FlightPlan& plan, FlightKind kind, const SensorArray& array, const std::vector<Vec3>& arms,
+                   std::uint64_t seed) {
+  FlightSpec out;
+  out.kind = kind;
+  out.rate_hz = 1.0 / plan.setup.sample_period_s;
+  out.seed = seed;
+  out.lever_arm_m = arms;
+  for (int i = 0; i < array.size(); ++i) out.axis.push_back(array.axis(i));
+  out.noise_mps2 = kFlightNoise_mps2;
+  out.full_scale_mps2 = session::flight_full_scale_mps2(plan.datasheet, out.full_scale_mps2);
+  out.box = session::flight_errors_within(plan.setup.errors[0], plan.setup.gyro, out.bandwidth_hz);
+  out.gyros = plan.setup.gyros;
+  out.gyro_noise_radps = plan.setup.gyro.noise_radps;
+  return out;
+}
+
+/// What is no reading, or none at all.
+bool may_silence(const scenario::Fault& fault) {
+  return fault.kind == scenario::FaultKind::missing || fault.kind == scenario::FaultKind::pattern;
+}
+
 tl::unexpected<std::string> refused_by(const Error& error) {
   return tl::unexpected<std::string>(std::string(describe(error.code)) + ". Remedy: " + remedy(error.code));
 }
@@ -83,86 +119,104 @@ const char* to_string(FlightEvent event) noexcept {
   return "unknown";
 }
 
-FlightRun::FlightRun(const Datasheet& datasheet, const SensorArray& array, Flight flight, scenario::Injector injector,
-                     SceneFaults faults)
-    : model_(datasheet.model()),
+FlightRun::FlightRun(FlightPlan plan, const SensorArray& array, Flight flight, scenario::Injector injector,
+                     std::vector<std::string> words)
+    : plan_(std::move(plan)),
+      model_(plan_.datasheet.model()),
       array_(array),
       flight_(std::move(flight)),
       injector_(std::move(injector)),
-      words_(std::move(faults.words)),
-      px4_(array, kRate_hz),
+      words_(std::move(words)),
+      px4_(array, plan_.spec.rate_hz),
       all_(least_squares(array, array.all())),
-      full_scale_mps2_(0.999 * kFlightRange_g0 * kG0_mps2),
+      rows_(static_cast<std::uint64_t>(std::llround(plan_.spec.rate_hz * plan_.duration_s))),
       digest_(io::kFnvStart) {}
 
 tl::expected<std::unique_ptr<FlightRun>, std::string> FlightRun::make(const json& scene, const AxisList& axes,
                                                                       const ChipList& chips, int n) {
-  FlightSpec spec;
-  bool known = false;
-  for (int k = 0; k < scenario::kFlightKinds; ++k) {
-    if (motion_of(scene) != to_string(static_cast<FlightKind>(k))) continue;
-    spec.kind = static_cast<FlightKind>(k);
-    known = true;
-  }
-  if (!known)
+  const std::optional<FlightKind> kind = kind_of(motion_of(scene));
+  if (!kind)
     return tl::unexpected<std::string>(
         "\"" + motion_of(scene) + "\" is no motion. Remedy: choose stations, roll, drone, drilling, car or launch");
-  const Datasheet datasheet = datasheet_of(axes, chips, n, kFlightNoise_mps2, flight_make());
-  const Expected<SensorArray> array = datasheet.array();
+  FlightPlan plan;
+  plan.datasheet = datasheet_of(axes, chips, n, kFlightNoise_mps2, flight_make());
+  const Expected<SensorArray> array = plan.datasheet.array();
   if (!array) return refused_by(array.error());
-  tl::expected<SceneFaults, std::string> faults = faults_of(scene, datasheet);
+  tl::expected<SceneFaults, std::string> faults = faults_of(scene, plan.datasheet);
   if (!faults) return tl::unexpected<std::string>(faults.error());
-  spec.lever_arm_m = arms_of(*array);
-  for (int i = 0; i < n; ++i) spec.axis.push_back(array->axis(i));
-  spec.seed = seed_of(scene, "seed", 3.0);
-  spec.noise_mps2 = kFlightNoise_mps2;
-  spec.full_scale_mps2 = kFlightRange_g0 * kG0_mps2;
-  spec.gyros = kFlightGyros;
-  tl::expected<Flight, std::string> flight = Flight::make(spec);
+  plan.faults = faults->faults;
+  const std::vector<Vec3> arms = arms_of(*array);
+  plan.setup = setup_of_flight(arms, *kind);
+  plan.spec = spec_of(plan, *kind, *array, arms, seed_of(scene, "seed", 3.0));
+  const double duration_s = number(scene, "duration_s", 6.0);
+  plan.duration_s = duration_s > 0.0 && duration_s < kLongest_s ? duration_s : kLongest_s;
+  tl::expected<Flight, std::string> flight = Flight::make(plan.spec);
   if (!flight) return tl::unexpected<std::string>(flight.error());
   tl::expected<scenario::Injector, std::string> injector =
-      scenario::Injector::make(datasheet, datasheet.model(), faults->faults, spec.seed);
+      scenario::Injector::make(plan.datasheet, plan.datasheet.model(), plan.faults, plan.spec.seed);
   if (!injector) return tl::unexpected<std::string>(injector.error());
   std::unique_ptr<FlightRun> out(
-      new FlightRun(datasheet, *array, *std::move(flight), *std::move(injector), *std::move(faults)));
-  const double duration_s = number(scene, "duration_s", 6.0);
-  out->rows_ =
-      static_cast<std::uint64_t>(kRate_hz * (duration_s > 0.0 && duration_s < kLongest_s ? duration_s : kLongest_s));
-  const Expected<void> configured = out->monitor_->configure(*array, setup_of_flight(spec.lever_arm_m, spec.kind));
+      new FlightRun(std::move(plan), *array, *std::move(flight), *std::move(injector), std::move(faults->words)));
+  const Expected<void> configured = out->configure();
   if (!configured) return refused_by(configured.error());
+  return out;
+}
+
+/// A flight is too short for the attitudes that a calibration takes, so that of the monitor at rest nothing comes but
+/// which channels are lost and back. It is left out where none can be: calibrating itself, it takes ten times as long
+/// as all else in a step.
+Expected<void> FlightRun::configure() {
+  Expected<void> done = monitor_->configure(array_, plan_.setup);
+  if (!done || std::none_of(plan_.faults.begin(), plan_.faults.end(), may_silence)) return done;
+  auto setup = std::make_unique<MonitorSetup>();
+  setup->config.alert_frame = AlertFrame::calibrated_axes;
+  setup->lever_arm_m = plan_.setup.lever_arm_m;
+  setup->lever_arms_known = true;
+  rest_ = std::make_unique<HealthMonitor>();
+  done = set_datasheet(plan_.datasheet, *setup);
+  return done ? rest_->configure(*setup) : done;
+}
+
+/// Before the step in motion, with what that found by the row before (as `session::MotionWatch` has it).
+void FlightRun::step_at_rest(Sample sample, const MotionSample& row) {
+  sample.temperature_degc = kFlightTemperature_degc;                                    // the log has no column for it
+  (void)rest_->set_rotation({norm(row.rate_radps[0]) > 0.0, true, row.rate_radps[0]});  // a finite one
+  rest_->set_motion(motion_finding(monitor_->verdict()));
+  if (settles_motion(rest_->step(sample))) monitor_->forget();
+  monitor_->set_in_service(in_service());
+}
+
+/// As `plumb monitor` reads the row of a log.
+MotionSample FlightRun::moved(const Sample& sample, const scenario::FlightSample& flown) const {
+  MotionSample out;
+  out.time_s = flown.time_s;
+  const Readings down = model_.without_misalignment(sample.raw, kFlightTemperature_degc, sample.delivered);
+  for (int i = 0; i < array_.size(); ++i) {
+    if (!sample.delivered.has(i) || !std::isfinite(down[slot(i)])) continue;
+    out.reading_mps2[slot(i)] = -down[slot(i)];  // of gravity: in motion the force
+    out.delivered = out.delivered.with(i);
+    if (std::fabs(sample.raw[slot(i)]) >= kClipShare * plan_.datasheet.sensor[slot(i)].full_scale_raw)
+      out.clipped = out.clipped.with(i);
+  }
+  for (std::size_t g = 0; g < kFlightGyros; ++g) {
+    out.rate_radps[g] = flown.rate_radps[g];
+    out.rate_given[g] = true;
+  }
   return out;
 }
 
 bool FlightRun::next(Record& record) {
   if (row_ == rows_) return false;
   const scenario::FlightSample flown = flight_.next();
-  Sample sample;
-  sample.time_s = flown.time_s;
-  sample.delivered = array_.all();
-  sample.temperature_degc = 25.0;
-  for (int i = 0; i < array_.size(); ++i) {
-    const Make make = flight_make();
-    const double raw = make.scale_per_mps2 * flown.reading_mps2[slot(i)];
-    sample.raw[slot(i)] = make.resolution_raw * std::nearbyint(raw / make.resolution_raw);
-  }
+  Sample sample = session::flight_sample(plan_.datasheet, model_, kFlightTemperature_degc, flown);
   const SensorSet faulty = injector_.apply(sample);
-  MotionSample moved;
-  moved.time_s = flown.time_s;
-  moved.delivered = sample.delivered & array_.all();
-  const Readings down = model_.apply(sample.raw, sample.temperature_degc, moved.delivered);
-  for (std::size_t i = 0; i < down.size(); ++i) moved.reading_mps2[i] = -down[i];  // of gravity: in motion the force
-  for (int i = 0; i < array_.size(); ++i) {
-    if (std::fabs(moved.reading_mps2[slot(i)]) >= full_scale_mps2_) moved.clipped = moved.clipped.with(i);
-  }
-  for (std::size_t g = 0; g < kFlightGyros; ++g) {
-    moved.rate_radps[g] = flown.rate_radps[g];
-    moved.rate_given[g] = true;
-  }
-  monitor_->step(moved);
-  px4_.step(moved.reading_mps2, moved.delivered);
+  const MotionSample row = moved(sample, flown);
+  if (rest_) step_at_rest(sample, row);
+  monitor_->step(row);
+  px4_.step(row.reading_mps2, row.delivered);
   truth_ = {truth_[1], truth_[2], flown.specific_force_mps2};
   hash(monitor_->verdict());
-  tell(flown, faulty, moved.reading_mps2, record);
+  tell(flown, faulty, row.reading_mps2, record);
   ++row_;
   return true;
 }
@@ -175,11 +229,14 @@ void FlightRun::tell(const scenario::FlightSample& flown, SensorSet faulty, cons
   record.set(At::moving, 1);
   record.set(At::validity, force.validity);
   record.set(At::cause, v.cause);
-  record.set(At::in_service, array_.all() - v.excluded);
+  record.set(At::in_service, in_service() - v.excluded);
+  record.set(At::absent, rest_ ? rest_->verdict().absent : SensorSet());
   record.set(At::provisionally_excluded, v.excluded);
   record.set(At::excluded, SensorSet());
   record.set(At::suspects, v.isolated | v.suspects);
   record.set(At::faulty, faulty);
+  record.set(At::alert, v.alarm);
+  record.set(At::isolated, v.isolated);
   tell_event(record);
   const Vec3 mean = scaled(plus(truth_[0], truth_[1]), 0.5);  // that of which the monitor speaks now
   record.set(At::told_x, force.validity == ForceValidity::none ? Vec3{} : force.force_mps2);
@@ -232,7 +289,8 @@ void FlightRun::hash(const MotionVerdict& v) {
     add(static_cast<std::uint32_t>(force->validity));
     add(force->used.bits);
   }
-  for (const SensorSet set : {v.rejected, v.suspects, v.isolated, v.excluded, px4_.selector(), px4_.voter()})
+  for (const SensorSet set :
+       {v.rejected, v.suspects, v.isolated, v.excluded, in_service(), px4_.selector(), px4_.voter()})
     add(set.bits);
   add(static_cast<std::uint32_t>(v.least_faults));
   add(static_cast<std::uint32_t>(v.cause));

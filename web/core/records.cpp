@@ -85,7 +85,8 @@ constexpr const char* kNames[] = {"time_s",
                                   "force_error_mps2",
                                   "force_bound_mps2",
                                   "plain_force_mps2",
-                                  "px4_force_mps2"};
+                                  "px4_force_mps2",
+                                  "isolated"};
 static_assert(std::size(kNames) == kCommonFigures);
 
 }  // namespace

@@ -72,8 +72,9 @@ enum class At : std::uint8_t {
   force_bound_mps2,
   plain_force_mps2,
   px4_force_mps2,
+  isolated,  ///< in every explanation; excluded after a dwell
 };
-inline constexpr std::size_t kCommonFigures = static_cast<std::size_t>(At::px4_force_mps2) + 1;
+inline constexpr std::size_t kCommonFigures = static_cast<std::size_t>(At::isolated) + 1;
 inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// What stands where in a record.
