@@ -18,6 +18,7 @@
 #include "plumb/render/health_page.hpp"
 #include "plumb/render/identity.hpp"
 #include "plumb/render/sensor_notes.hpp"
+#include "plumb/render/verification_field.hpp"
 #include "plumb/render/wiring_words.hpp"
 
 namespace plumb {
@@ -184,7 +185,8 @@ io::FileExpected<void> HealthReport::write(const session::MonitorRun& run, const
   const std::string data_name = fs::path(health_data_path(options_.report)).filename().string();
   const Json shown = io::with_fine_as_mg0(report, array_.field);
   if (done)
-    done = page_.write(render::in_field_words(render::health_html(shown, pictures_of(shown), data_name), array_.field));
+    done = page_.write(
+        render::in_direction_words(render::health_html(shown, pictures_of(shown), data_name), array_.field));
   if (done) done = page_.commit();
   return done;
 }

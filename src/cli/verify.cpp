@@ -157,7 +157,8 @@ io::ExitCode run_verify(const VerifyOptions& options) {
                     render::verification_plots_in_field(render::verification_plot_files(shown, found->geometry), field),
                     render::kVerificationScript, render::verification_picture_names(shown, found->geometry));
   if (!pictures) return report(pictures.error());
-  const std::string page = render::verification_page_in_field(render::verification_html(shown, *pictures), field);
+  const std::string page =
+      render::verification_page_in_field(render::verification_html(shown, *pictures), shown, field);
   folder.write("report.html", page);
   folder.write("junit.xml", render::junit_xml(found->told));
   folder.write("needs.json", render::needs_json(found->told));
@@ -165,13 +166,13 @@ io::ExitCode run_verify(const VerifyOptions& options) {
   folder.write("spdx.json", render::spdx_json(found->told));
   const bool analysed = found->facts.analysis_findings.has_value();
   folder.put("analysis.sarif", analysed ? render::sarif_json(found->told["analysis"], PLUMB_VERSION) : "");
-  folder.write("argument.svg", render::in_direction_words(render::argument_svg(shown), field));
+  folder.write("argument.svg", render::in_direction_words(render::argument_svg(shown), shown, field));
   if (folder.failure()) return report(*folder.failure());
   folder.leave_out("report.pdf");
   if (options.pdf) print_pdf(options.out, page);
   print(options.json ? text : summary(*found, options.out));
   const bool fit = found->verdict.fit == verification::Result::met;
-  if (!fit) print_error("plumb: " + render::in_direction_words(found->verdict.sentence, field) + "\n");
+  if (!fit) print_error("plumb: " + render::in_direction_words(found->verdict.sentence, shown, field) + "\n");
   return fit ? io::ExitCode::done : io::ExitCode::verification_failed;
 }
 

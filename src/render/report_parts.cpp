@@ -117,8 +117,7 @@ void put_magnetic_housing(const io::ArrayFile& array, const Calibration* calibra
   const findings::WiringCheck check = findings::check_wiring(array, nullptr, {});
   const bool aligned = file != nullptr && file->alignment.has_value();
   const bool steep = std::fabs(array.magnetic.dip_rad) > kLeastDip_rad;
-  const std::string remedy =
-      "calibrate with --align-by, the calibration of the accelerometers, which ties the axes to theirs by the dip";
+  const std::string remedy = kAlignByAccelerometers;
   std::string text;
   if (aligned && steep) {
     out.wiring = {State::confirmed, "confirmed by the accelerometers, to which the axes are aligned", ""};

@@ -208,7 +208,7 @@ std::string wiring_remedy(const WiringCheck& check, const io::ArrayFile& array) 
                  : "check the wiring, `column`, `scale` and `reads` of " + array.path + ", and the stated angles";
     case WiringStatus::open: break;
   }
-  return what_to_record(check);
+  return array.field == io::FieldKind::magnetic ? kAlignByAccelerometers : what_to_record(check);
 }
 
 std::string wiring_text(const WiringCheck& check, const io::ArrayFile& array) {

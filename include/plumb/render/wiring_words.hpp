@@ -19,6 +19,10 @@ std::string wiring_words(const Wiring& wiring, const SensorArray& array);
 /// "confirmed by station 7", "47 other wirings give the same residuals"
 std::string wiring_found(const findings::WiringCheck& check);
 
+/// What ties the axes of magnetometers to the tool: no attitude tells how the field lies in it.
+inline constexpr const char* kAlignByAccelerometers =
+    "calibrate with --align-by, the calibration of the accelerometers, which ties the axes to theirs by the dip";
+
 /// The finding in full, and what to do where something is to be done. Without a full stop.
 std::string wiring_reason(const findings::WiringCheck& check, const io::ArrayFile& array);
 std::string wiring_remedy(const findings::WiringCheck& check, const io::ArrayFile& array);
