@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 /// direction of the field, which tells no inclination by itself.
 std::string in_direction_words(std::string text, io::FieldKind field);
 /// The same beside the names of the tool and of the files that the report has, which stay as they are.
-std::string in_direction_words(std::string text, const io::Json& report, io::FieldKind field);
+std::string in_direction_words(std::string text, const Json& report, io::FieldKind field);
 
 /// The master report: keys and figures in the field's units, texts in its words. What tells of plumb and not of the
 /// array (state machine, traceability, resources, identity) stays.
@@ -28,7 +28,7 @@ Json verification_in_field(const Json& report, io::FieldKind field);
 /// What `verification_html` and `verification_plot_files` are given: the same keys, with such numbers that the page
 /// shows the field's units; and what they made, in its words.
 Json verification_shown(const Json& report, io::FieldKind field);
-std::string verification_page_in_field(const std::string& html, const io::Json& report, io::FieldKind field);
+std::string verification_page_in_field(const std::string& html, const Json& report, io::FieldKind field);
 std::vector<PlotFile> verification_plots_in_field(std::vector<PlotFile> files, io::FieldKind field);
 
 }  // namespace render
