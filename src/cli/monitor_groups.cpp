@@ -7,9 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "monitor_wanted.hpp"
 #include "monitor_watch.hpp"
-#include "plumb/io/calibration_file.hpp"
-#include "plumb/io/gyro_calibration.hpp"
 #include "plumb/render/group_report.hpp"
 #include "plumb/render/timeline.hpp"
 #include "plumb/session/group_dip.hpp"
@@ -21,101 +20,7 @@ inline namespace PLUMB_ABI {
 namespace cli {
 namespace {
 
-struct Wanted {
-  std::string name, calibration;
-  const io::ArrayFile* array = nullptr;
-  std::optional<io::GyroCalibration> gyros{};  ///< of a rate that is calibrated
-};
-
-io::FileError wrong_group(std::string what, std::string remedy) {
-  return io::FileError{"--group", 0, "", std::move(what), std::move(remedy), io::ExitCode::usage};
-}
-
-std::string names_of(const io::ArrayFile& tool) {
-  std::string out;
-  for (const io::ArrayFile& one : tool.groups) out += (out.empty() ? "" : ", ") + one.group;
-  return out;
-}
-
-/// "mag=mag.json": a calibration, which a rate need not have.
-io::FileExpected<std::vector<Wanted>> groups_of(const MonitorOptions& options, const io::ArrayFile& tool) {
-  std::vector<Wanted> out;
-  for (const std::string& text : options.groups) {
-    const std::size_t sign = text.find('=');
-    Wanted one{text.substr(0, sign), sign == std::string::npos ? "" : text.substr(sign + 1), nullptr};
-    for (const io::ArrayFile& group : tool.groups) one.array = group.group == one.name ? &group : one.array;
-    if (one.array == nullptr)
-      return tl::unexpected<io::FileError>(wrong_group(
-          options.array + " has no group \"" + one.name + "\"",
-          tool.groups.empty() ? "add a [[group]] to the array file" : "name one of its groups: " + names_of(tool)));
-    const bool rate = one.array->field == io::FieldKind::rate;
-    if (!rate && one.calibration.empty())
-      return tl::unexpected<io::FileError>(
-          wrong_group("\"" + one.name + "\" has no calibration", "write --group " + one.name +
-                                                                     "=CAL.json, with what plumb calibrate --array " +
-                                                                     options.array + "#" + one.name + " wrote"));
-    for (const Wanted& before : out) {
-      if (before.name == one.name)
-        return tl::unexpected<io::FileError>(wrong_group("\"" + one.name + "\" is given twice", "give it once"));
-    }
-    if (rate && !one.calibration.empty()) {
-      io::FileExpected<io::GyroCalibration> gyros = io::read_gyro_calibration(one.calibration, *one.array);
-      if (!gyros) return tl::unexpected<io::FileError>(gyros.error());
-      one.gyros = *std::move(gyros);
-    }
-    if (!rate) {
-      const io::FileExpected<io::CalibrationFile> calibration = io::read_calibration(one.calibration, *one.array);
-      if (!calibration) return tl::unexpected<io::FileError>(calibration.error());
-    }
-    out.push_back(std::move(one));
-  }
-  return out;
-}
-
-/// Two groups that would write the same file.
-std::optional<io::FileError> clash_of(const MonitorOptions& options, const std::vector<Wanted>& groups) {
-  std::vector<NamedFile> files;
-  const auto add = [&](const std::string& group) {
-    for (const auto& [option, path] : {std::pair<const char*, std::string>{"--events", options.events},
-                                       {"--verdicts", options.verdicts},
-                                       {"--motion", options.motion},
-                                       {"--inclination", options.inclination},
-                                       {"--report", options.report},
-                                       {"--report", health_data_path(options.report)}}) {
-      if (!path.empty()) files.push_back({option, group.empty() ? path : name_for_group(path, group)});
-    }
-  };
-  add("");
-  std::vector<NamedFile> read = {
-      {"--array", array_file_of(options.array)}, {"--calibration", options.calibration}, {"--log", options.log.path}};
-  for (const Wanted& group : groups) {
-    add(group.name);
-    read.push_back({"--group", group.calibration});
-  }
-  return overwritten(files, read);
-}
-
-std::optional<io::FileError> misuse(const MonitorOptions& o) {
-  if (o.limits || !o.roll_test.empty() || !o.snapshot_in.empty() || !o.snapshot_out.empty())
-    return io::FileError{"--group",
-                         0,
-                         "",
-                         "does not go with --limits, --roll-test or a snapshot",
-                         "leave --group out for these; magnetometers by themselves: --array TOOL.toml#GROUP",
-                         io::ExitCode::usage};
-  for (const std::string* path : {&o.events, &o.verdicts, &o.motion, &o.inclination}) {
-    if (*path == "-")
-      return io::FileError{"--group",
-                           0,
-                           "",
-                           "writes one file a group, and standard output is one",
-                           "name files; --json writes all groups to standard output",
-                           io::ExitCode::usage};
-  }
-  return std::nullopt;
-}
-
-MonitorOptions options_of(const MonitorOptions& tool, const Wanted& group) {
+MonitorOptions options_of(const MonitorOptions& tool, const WantedGroup& group) {
   MonitorOptions out = tool;
   out.groups.clear();
   out.array = tool.array + "#" + group.name;
@@ -140,10 +45,10 @@ io::ExitCode worse(io::ExitCode a, io::ExitCode b) {
 
 /// One group beside the accelerometers: magnetometers with a monitor like theirs, or gyros.
 struct Group {
-  explicit Group(const Wanted& one) : wanted(one) {}
+  explicit Group(const WantedGroup& one) : wanted(one) {}
   const io::ArrayFile& array() const noexcept { return *wanted.array; }
 
-  Wanted wanted;
+  WantedGroup wanted;
   std::string label;
   std::unique_ptr<ArrayWatch> watch;
   session::GroupTrack track;
@@ -157,7 +62,7 @@ struct Group {
 /// All groups of one tool over one pass of its log.
 class ToolWatch {
  public:
-  ToolWatch(const MonitorOptions& options, const io::ArrayFile& tool, const std::vector<Wanted>& groups);
+  ToolWatch(const MonitorOptions& options, const io::ArrayFile& tool, const std::vector<WantedGroup>& groups);
   /// How the command ends, where it ends before the run.
   std::optional<io::ExitCode> begin();
   io::FileExpected<void> run();
@@ -182,11 +87,11 @@ class ToolWatch {
 
 std::string column(const std::string& name, std::size_t widest) { return fmt::format("{:<{}}", name, widest + 2); }
 
-ToolWatch::ToolWatch(const MonitorOptions& options, const io::ArrayFile& tool, const std::vector<Wanted>& groups)
+ToolWatch::ToolWatch(const MonitorOptions& options, const io::ArrayFile& tool, const std::vector<WantedGroup>& groups)
     : options_(options),
       rates_of_(tool.motion.gyro.group),
       widest_(std::string(to_string(io::FieldKind::gravity)).size()) {
-  for (const Wanted& one : groups) {
+  for (const WantedGroup& one : groups) {
     groups_.push_back(std::make_unique<Group>(one));
     widest_ = std::max(widest_, one.name.size());
   }
@@ -393,10 +298,10 @@ std::string name_for_group(const std::string& path, const std::string& group) {
 io::ExitCode monitor_tool(const MonitorOptions& options) {
   const io::FileExpected<io::ArrayFile> tool = read_array(options.array, "plumb monitor", Serves::lengths);
   if (!tool) return report(tool.error());
-  if (const std::optional<io::FileError> wrong = misuse(options)) return report(*wrong);
-  const io::FileExpected<std::vector<Wanted>> groups = groups_of(options, *tool);
+  if (const std::optional<io::FileError> wrong = groups_misuse(options)) return report(*wrong);
+  const io::FileExpected<std::vector<WantedGroup>> groups = wanted_groups(options, *tool);
   if (!groups) return report(groups.error());
-  if (const std::optional<io::FileError> clash = clash_of(options, *groups)) return report(*clash);
+  if (const std::optional<io::FileError> clash = groups_clash(options, *groups)) return report(*clash);
   ToolWatch watch(options, *tool, *groups);
   if (const std::optional<io::ExitCode> ended = watch.begin()) return *ended;
   const io::FileExpected<void> done = watch.run();

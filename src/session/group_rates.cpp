@@ -154,7 +154,10 @@ GroupRates::Together GroupRates::together(const TriadRates& rates) const noexcep
     }
   }
   if (count <= outvoted_) return {};  // all of them may be faulty
-  return {true, scaled(plus(low, high), 0.5), 0.5 * norm(minus(high, low))};
+  const Vec3 middle = scaled(plus(low, high), 0.5);
+  const double spread_radps = 0.5 * norm(minus(high, low));
+  // Numbers so large that their sum or difference is none say nothing.
+  return {std::isfinite(norm(middle)) && std::isfinite(spread_radps), middle, spread_radps};
 }
 
 GyroErrors GroupRates::worst_errors(const RateSample& sample) const noexcept {

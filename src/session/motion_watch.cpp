@@ -74,7 +74,8 @@ void MotionWatch::add_group_rate(MotionSample& row) {
   const RateSample& gyros = gyros_->newest();
   ToolRate rate;
   if (gyros.time_s == row.time_s) rate = plan_.rates->step(gyros, gyros_->failed());
-  if (!rate.begins) inputs_.add_rate(0, rate.given, rate.rate_radps);
+  constexpr std::uint64_t kFirstRows = 2;  // of which no slope can be known
+  if (!rate.begins || inputs_.found().rows > kFirstRows) inputs_.add_rate(0, rate.given, rate.rate_radps);
   if (!rate.given) return;
   row.rate_given[0] = true;
   row.rate_radps[0] = rate.rate_radps;

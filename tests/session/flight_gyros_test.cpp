@@ -241,6 +241,10 @@ TEST(GyroGroupInMotion, ARowWithoutGyrosHasNoRate) {
   EXPECT_EQ(watch.run().inputs.gyro[0].rates, 8U)
       << "all but the first two, of which the slope is not known, two chips too";
   EXPECT_EQ(watch.run().inputs.gyro[0].missing, 3U) << "one chip alone, and the row without gyros";
+  // Gyros in every second row: how the rate changes is never known, and that is told.
+  for (int k = 0; k < 20; ++k) both(1.0 + 0.001 * k, k % 2 == 0 ? gyros.array.all() : SensorSet{});
+  EXPECT_EQ(watch.run().inputs.gyro[0].rates, 8U);
+  EXPECT_EQ(watch.run().inputs.gyro[0].missing, 23U);
 }
 
 }  // namespace

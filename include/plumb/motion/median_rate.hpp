@@ -32,14 +32,15 @@ struct MedianRate {
 /// What it is for: a monitor of motion corrects for lever arms by a rate (`MotionSample::rate_radps[0]`), and one gyro
 /// alone may blame healthy accelerometers. With this rate, and `MotionSetup::gyro_corroborated`, no single gyro can.
 /// Each component may be another triad's at each sample, so what such a gyro is off by has no slope: state it by
-/// `median_error_radps` in `MotionSample::interpolation_radps[0]`, and 0 for all of `MotionSetup::gyro` but the lag that
-/// all triads have in common against the accelerometers. What they lag each other by is no delay of the median, which
-/// jumps between one that leads and one that lags: add sqrt(3) times the largest lag times the angular acceleration.
+/// `median_error_radps` in `MotionSample::interpolation_radps[0]`, and 0 for all of `MotionSetup::gyro` but the lag
+/// that all triads have in common against the accelerometers. What they lag each other by is no delay of the median,
+/// which jumps between one that leads and one that lags: add sqrt(3) times the largest lag times the angular
+/// acceleration.
 MedianRate median_rate(const TriadRates& rates, int faults) noexcept;
 
 /// What the median at this length of the rate is off by at most, in length (T15), while the errors of healthy triads
-/// are within `triad`, its lag left out (above), and noise within `noise_sigmas` sigmas of each sample. Infinite where scale
-/// and axes may be off by so much that the rate says nothing.
+/// are within `triad`, its lag left out (above), and noise within `noise_sigmas` sigmas of each sample. Infinite where
+/// scale and axes may be off by so much that the rate says nothing.
 double median_error_radps(const GyroErrors& triad, double rate_radps, double noise_sigmas) noexcept;
 
 }  // namespace PLUMB_ABI

@@ -23,17 +23,17 @@ struct ToolRate {
   bool begins = false;  ///< enough of them, but how the rate changes is not known yet: no rate is given
 };
 
-/// While fewer deliver but one of them at least is healthy, the rate is the middle between the extremes, and half of
-/// what they differ by is in the bound.
+/// Axes are made into triads: each chip of three axes or more that span space is one; axes of no chip are put together
+/// three by three. A unit that fails spoils the triads that it is in, so 2 k + 1 triads outvote `faults` units that
+/// spoil k at most (`median_rate`; docs/theory.md, T15).
+///
+/// While fewer triads deliver but one of them at least is healthy, the rate is the middle between the extremes, and
+/// half of what they differ by is in the bound.
 ///
 /// A lag is no delay of the median, which may be a leading triad's at one sample and a lagging one's at the next: it is
 /// in the bound of each sample by the angular acceleration, and that by what the triads change by from sample to
 /// sample, judged as they are. It is taken to change in the next sample by no more than it did in the last one. So the
 /// first two samples, and those after a gap, have no rate where a lag is stated.
-///
-/// Axes are made into triads: each chip of three axes or more that span space is one; axes of no chip are put together
-/// three by three. A unit that fails spoils the triads that it is in, so 2 k + 1 triads outvote `faults` units that
-/// spoil k at most (`median_rate`; docs/theory.md, T15).
 class GroupRates {
  public:
   /// Of noise that a sample of a triad stays within.
