@@ -219,21 +219,28 @@ TEST(ContinuousInclination, WithoutTheTermOfTheVelocityTheTruthIsOutside) {
   EXPECT_EQ(with.inclination.interval().widest, InclinationTerm::velocity);
 }
 
+constexpr double kCone_rad = 0.05, kVelocity_mps = 0.5;
+
+/// The axis goes round in a cone, 2 Hz, and the velocity always points where it goes.
+Course followed_cone() {
+  Course out;
+  out.inclination_rad = 0.5 * kPi;
+  out.roll_radps = 0.0;
+  out.nod_rad = out.swing_rad = kCone_rad;
+  out.hz = 2.0;
+  out.velocity_mps = [](double t) -> Vec3 {
+    const double angle = 4.0 * kPi * t;
+    return {0.0, -kVelocity_mps * std::sin(angle), -kVelocity_mps * std::cos(angle)};
+  };
+  return out;
+}
+
 /// The axis goes round in a cone, and the velocity always points where it goes: all of the term of turning is there. It
 /// rests on the larger of two gyros, and on what either may read too little. With gyros that miss the cone the truth is
 /// outside.
 // Negative: REQ-211
 TEST(ContinuousInclination, AVelocityThatFollowsTheAxisIsInTheInterval) {
-  constexpr double kCone_rad = 0.05, kVelocity_mps = 0.5;
-  Course cone;
-  cone.inclination_rad = 0.5 * kPi;
-  cone.roll_radps = 0.0;
-  cone.nod_rad = cone.swing_rad = kCone_rad;
-  cone.hz = 2.0;
-  cone.velocity_mps = [](double t) -> Vec3 {
-    const double angle = 4.0 * kPi * t;
-    return {0.0, -kVelocity_mps * std::sin(angle), -kVelocity_mps * std::cos(angle)};
-  };
+  const Course cone = followed_cone();
   MotionSetup coarse = setup_of(6);
   coarse.gyro = {0.35, 0.0, 0.0, 0.0, 0.0};
   const auto reads = [&](double first, double second) {
@@ -256,16 +263,8 @@ TEST(ContinuousInclination, AVelocityThatFollowsTheAxisIsInTheInterval) {
 /// that states no number for it is none.
 // Negative: REQ-211
 TEST(ContinuousInclination, WhatASampleSaysThatItsRateIsOffByCounts) {
-  constexpr double kCone_rad = 0.05, kVelocity_mps = 0.5, kAcross_radps = kCone_rad * 4.0 * kPi;
-  Course cone;
-  cone.inclination_rad = 0.5 * kPi;
-  cone.roll_radps = 0.0;
-  cone.nod_rad = cone.swing_rad = kCone_rad;
-  cone.hz = 2.0;
-  cone.velocity_mps = [](double t) -> Vec3 {
-    const double angle = 4.0 * kPi * t;
-    return {0.0, -kVelocity_mps * std::sin(angle), -kVelocity_mps * std::cos(angle)};
-  };
+  const Course cone = followed_cone();
+  constexpr double kAcross_radps = kCone_rad * 4.0 * kPi;
   MotionSetup exact = setup_of(6);
   exact.gyro = {};
   exact.gyros = 1;
